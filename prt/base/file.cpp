@@ -1,0 +1,119 @@
+#include "prt/base/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "prt/base/error.h"
+
+namespace prt {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void throwWriteFailed(const fs::path& path, int errorNumber) {
+    throw Error(ErrorCode::writeFailed,
+                std::string("cannot be written: ") + std::strerror(errorNumber), path.string(),
+                "check that the folder exists, is writable and has space");
+}
+
+/// An open temporary file beside its destination; removed again unless committed.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(const fs::path& destination) : destination_(destination) {
+        temporary_ = destination.string() + ".part-XXXXXX";
+        descriptor_ = ::mkstemp(temporary_.data());
+        if (descriptor_ < 0) throwWriteFailed(destination_, errno);
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+        if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    }
+
+    void write(std::span<const std::byte> bytes) {
+        while (!bytes.empty()) {
+            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written < 0) throwWriteFailed(destination_, errno);
+            bytes = bytes.subspan(static_cast<std::size_t>(written));
+        }
+    }
+
+    /// Makes the bytes durable before the name points at them [OSDI14].
+    void commit() {
+        // mkstemp makes files private; give the result the mode an ordinary create would have.
+        const mode_t mask = ::umask(0);
+        ::umask(mask);
+        if (::fchmod(descriptor_, 0666 & ~mask) != 0) throwWriteFailed(destination_, errno);
+        if (::fsync(descriptor_) != 0) throwWriteFailed(destination_, errno);
+        const int closed = ::close(descriptor_);
+        descriptor_ = -1;
+        if (closed != 0) throwWriteFailed(destination_, errno);
+        if (::rename(temporary_.c_str(), destination_.c_str()) != 0)
+            throwWriteFailed(destination_, errno);
+        temporary_.clear();
+        syncFolder();
+    }
+
+  private:
+    void syncFolder() const {
+        const fs::path folder =
+            destination_.has_parent_path() ? destination_.parent_path() : fs::path(".");
+        const int folderDescriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
+        if (folderDescriptor < 0) return;
+        ::fsync(folderDescriptor);
+        ::close(folderDescriptor);
+    }
+
+    fs::path destination_;
+    std::string temporary_;
+    int descriptor_ = -1;
+};
+
+}  // namespace
+
+std::vector<std::byte> readFile(const fs::path& path, std::uintmax_t maxBytes) {
+    std::error_code failure;
+    const fs::file_status status = fs::status(path, failure);
+    if (!fs::exists(status)) throw Error(ErrorCode::notFound, "does not exist", path.string());
+    if (!fs::is_regular_file(status))
+        throw Error(ErrorCode::unreadable, "is not a file", path.string());
+    const std::uintmax_t size = fs::file_size(path, failure);
+    if (failure) throw Error(ErrorCode::unreadable, failure.message(), path.string());
+    if (size > maxBytes)
+        throw Error(ErrorCode::limitExceeded,
+                    "has " + std::to_string(size) + " bytes, more than the limit of " +
+                        std::to_string(maxBytes),
+                    path.string());
+
+    std::ifstream file(path, std::ios::binary);
+    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!file) throw Error(ErrorCode::unreadable, "could not be read to its end", path.string());
+    return bytes;
+}
+
+void writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {
+    TemporaryFile file(path);
+    file.write(bytes);
+    file.commit();
+}
+
+void writeFileAtomically(const fs::path& path, const std::string& text) {
+    writeFileAtomically(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+void checkWritable(const fs::path& path) {
+    if (fs::is_directory(path))
+        throw Error(ErrorCode::writeFailed, "is a folder, not a file", path.string());
+    TemporaryFile probe(path);
+}
+
+}  // namespace prt
