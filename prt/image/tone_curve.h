@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "prt/image/image.h"
+
+namespace prt {
+
+/// The sRGB transfer function [IEC 61966-2-1]: code value in [0, 1] to linear, and back.
+float decodeSrgb(float codeValue);
+float encodeSrgb(float linear);
+
+/// decodeSrgb(codeValue / 255), from a table.
+float decodeSrgb8(std::uint8_t codeValue);
+
+enum class ToneCurve {
+    none,  ///< clamp to [0, 1]
+    aces,  ///< Narkowicz' fit of the ACES filmic curve [Narkowicz15]
+};
+
+struct DisplayOptions {
+    float exposureStops = 0.0f;  ///< radiance is multiplied by 2^exposureStops first
+    ToneCurve toneCurve = ToneCurve::aces;
+};
+
+/// Turns linear radiance into the 8-bit sRGB picture that a PNG holds (C5). Alpha is opaque.
+Rgba8Image encodeForDisplay(const Image& radiance, const DisplayOptions& options = {});
+
+}  // namespace prt
