@@ -1,0 +1,88 @@
+// Bibliography
+//   [Ramamoorthi01]  An efficient representation for irradiance environment maps
+//   [Sloan08]        Stupid spherical harmonics tricks
+#include "prt/basis/zonal.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "prt/base/assert.h"
+#include "prt/basis/sh.h"
+
+namespace prt {
+namespace {
+
+/// y_l0(+z) = √((2l+1)/4π).
+double zonalPeak(int l) {
+    return std::sqrt((2 * l + 1) * 0.25 * std::numbers::inv_pi);
+}
+
+/// A_l of [Ramamoorthi01, eq. 7 and 8]: what the clamped cosine multiplies degree l by.
+double clampedCosineFactor(int l) {
+    if (l == 1) return 2.0 / 3.0 * std::numbers::pi;
+    if (l % 2 != 0) return 0.0;
+    double centralBinomial = 1.0;  // l! / (2^l (l/2)!²)
+    for (int k = 2; k <= l; k += 2)
+        centralBinomial *= (k - 1.0) / k;
+    const double sign = l % 4 == 0 ? -1.0 : 1.0;
+    return 2.0 * std::numbers::pi * sign / ((l + 2.0) * (l - 1.0)) * centralBinomial;
+}
+
+}  // namespace
+
+std::vector<double> clampedCosineZonal(int bandCount) {
+    PRT_ASSERT(bandCount >= 1, "there is at least one band");
+    std::vector<double> zonal;
+    for (int l = 0; l < bandCount; ++l)
+        zonal.push_back(clampedCosineFactor(l) * zonalPeak(l));
+    return zonal;
+}
+
+std::vector<double> capZonal(int bandCount, double halfAngleRadians) {
+    PRT_ASSERT(bandCount >= 1, "there is at least one band");
+    PRT_ASSERT(halfAngleRadians >= 0.0 && halfAngleRadians <= std::numbers::pi,
+               "the half angle lies in [0, π]");
+    const double x = std::cos(halfAngleRadians);
+    const double sine = std::sin(halfAngleRadians);
+    const double halfSine = std::sin(0.5 * halfAngleRadians);
+
+    // Integrate P_l over [x, 1], which is (1 − x²) P_l'(x) / (l (l+1)): unlike the usual difference
+    // of two polynomials, this keeps every digit for a disc as small as the sun.
+    std::vector<double> zonal = {4.0 * std::numbers::pi * zonalPeak(0) * halfSine * halfSine};
+    double lastLegendre = 1.0, legendre = x;        // P_{l−1}, P_l
+    double lastDerivative = 0.0, derivative = 1.0;  // P'_{l−1}, P'_l
+    for (int l = 1; l < bandCount; ++l) {
+        const double integral = sine * sine * derivative / (l * (l + 1.0));
+        zonal.push_back(2.0 * std::numbers::pi * zonalPeak(l) * integral);
+        const double nextLegendre = ((2 * l + 1) * x * legendre - l * lastLegendre) / (l + 1);
+        const double nextDerivative = lastDerivative + (2 * l + 1) * legendre;
+        lastLegendre = legendre;
+        legendre = nextLegendre;
+        lastDerivative = derivative;
+        derivative = nextDerivative;
+    }
+    return zonal;
+}
+
+void rotateZonal(std::span<const double> zonal, const Vec3d& axis, std::span<double> coefficients) {
+    const int bandCount = static_cast<int>(zonal.size());
+    evaluateSh(axis, bandCount, coefficients);
+    for (int l = 0; l < bandCount; ++l) {
+        const double factor = zonal[static_cast<std::size_t>(l)] / zonalPeak(l);
+        for (int i = l * l; i < (l + 1) * (l + 1); ++i) {
+            coefficients[static_cast<std::size_t>(i)] *= factor;
+        }
+    }
+}
+
+void unshadowedTransfer(const Vec3f& normal, int bandCount, std::span<float> transfer) {
+    evaluateSh(normal, bandCount, transfer);
+    for (int l = 0; l < bandCount; ++l) {
+        const float factor = static_cast<float>(std::numbers::inv_pi * clampedCosineFactor(l));
+        for (int i = l * l; i < (l + 1) * (l + 1); ++i) {
+            transfer[static_cast<std::size_t>(i)] *= factor;
+        }
+    }
+}
+
+}  // namespace prt

@@ -1,0 +1,153 @@
+#include "prt/basis/zonal.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "prt/basis/sh.h"
+#include "prt/math/quadrature.h"
+
+namespace prt {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRounding = 1e-14;
+
+/// 2π ∫ f(z) y_l0(z) dz over [low, 1], by a rule that is exact for the polynomials asked for.
+template <class Function>
+double integrateZonal(int l, double low, Function function) {
+    double sum = 0.0;
+    for (const auto& [position, weight] : gaussLegendre(40)) {
+        const double z = low + (1.0 - low) * 0.5 * (position + 1.0);
+        const double y =
+            std::sqrt((2 * l + 1) / (4.0 * kPi)) * std::legendre(static_cast<unsigned>(l), z);
+        sum += weight * 0.5 * (1.0 - low) * 2.0 * kPi * function(z) * y;
+    }
+    return sum;
+}
+
+// A2
+TEST(ClampedCosineZonal, IsThePublishedTable) {
+    constexpr double kPrintedPrecision = 1e-9;
+    const double published[] = {0.886226925,  1.023326708, 0.495415912, 0,
+                                -0.110778366, 0,           0.049927135};
+    const double factors[] = {kPi,
+                              2.0943951023931953,
+                              0.7853981633974483,
+                              0,
+                              -0.1308996938995747,
+                              0,
+                              0.04908738521234052,
+                              0,
+                              -0.02454369260617026,
+                              0,
+                              0.014317154020265984};
+    const auto zonal = clampedCosineZonal(11);
+    for (std::size_t l = 0; l < 11; ++l) {
+        EXPECT_NEAR(zonal[l] * std::sqrt(4.0 * kPi / (2.0 * static_cast<double>(l) + 1.0)),
+                    factors[l], kRounding);
+    }
+    for (std::size_t l = 0; l < 7; ++l)
+        EXPECT_NEAR(zonal[l], published[l], kPrintedPrecision);
+}
+
+TEST(ClampedCosineZonal, IsTheIntegralOfTheCosineLobe) {
+    const auto zonal = clampedCosineZonal(20);
+    for (int l = 0; l < 20; ++l) {
+        EXPECT_NEAR(zonal[static_cast<std::size_t>(l)],
+                    integrateZonal(l, 0.0, [](double z) { return z; }), kRounding);
+    }
+}
+
+TEST(CapZonal, IsThePublishedTable) {
+    constexpr double kPrintedPrecision = 1e-8;
+    const struct {
+        double degrees;
+        std::array<double, 6> zonal;
+    } table[] = {
+        {10, {.02692756, .04628561, .05884667, .06803752, .07478492, .07948790}},
+        {20, {.10689205, .17955973, .21783072, .23417589, .23242364, .21540916}},
+        {40, {.41467543, .63422092, .62721856, .46843839, .23304738, .00244034}},
+        {90, {1.77245385, 1.53499006, 0, -.58618401, 0, .36741027}},
+    };
+    for (const auto& [degrees, expected] : table) {
+        const auto zonal = capZonal(6, degrees * kPi / 180.0);
+        for (std::size_t l = 0; l < 6; ++l)
+            EXPECT_NEAR(zonal[l], expected[l], kPrintedPrecision);
+    }
+}
+
+TEST(CapZonal, IsTheIntegralOverTheCap) {
+    for (const double halfAngle : {0.0, 1e-3, 0.3, 1.0, 1.9, 3.0, kPi}) {
+        const auto zonal = capZonal(20, halfAngle);
+        for (int l = 0; l < 20; ++l) {
+            const double truth = integrateZonal(l, std::cos(halfAngle), [](double) { return 1.0; });
+            EXPECT_NEAR(zonal[static_cast<std::size_t>(l)], truth, kRounding)
+                << halfAngle << " " << l;
+        }
+    }
+}
+
+TEST(CapZonal, KeepsEveryDigitForADiscAsSmallAsTheSun) {
+    // For a half angle α → 0 every band becomes π α² y_l0(z) (1 − l(l+1) α²/8 + …) · (1 + O(α²)).
+    constexpr double kHalfAngle = 1e-6;
+    constexpr double kRelativeTolerance = 1e-10;
+    const auto zonal = capZonal(10, kHalfAngle);
+    for (int l = 0; l < 10; ++l) {
+        const double limit = kPi * kHalfAngle * kHalfAngle * std::sqrt((2 * l + 1) / (4.0 * kPi));
+        EXPECT_NEAR(zonal[static_cast<std::size_t>(l)] / limit, 1.0, kRelativeTolerance);
+    }
+}
+
+TEST(RotateZonal, TurnsTheAxisOfTheFunction) {
+    const std::array<double, 5> zonal = {0.3, -1.0, 2.0, 0.5, -0.7};
+    for (const auto& [axis, axisWeight] : sphereQuadrature(4)) {
+        std::array<double, 25> coefficients{};
+        rotateZonal(zonal, axis, coefficients);
+        for (const auto& [direction, directionWeight] : sphereQuadrature(5)) {
+            double expected = 0.0;
+            for (unsigned l = 0; l < 5; ++l) {
+                expected += zonal[l] * std::sqrt((2.0 * l + 1.0) / (4.0 * kPi)) *
+                            std::legendre(l, std::clamp(axis.dot(direction), -1.0, 1.0));
+            }
+            ASSERT_NEAR(reconstructSh(coefficients, 5, direction), expected, kRounding);
+        }
+    }
+}
+
+// T-14
+TEST(UnshadowedTransfer, OfANormalAlongZIsThePublishedVector) {
+    constexpr float kFloatRounding = 1e-7f;
+    std::array<float, 25> transfer{};
+    unshadowedTransfer(Vec3f(0, 0, 1), 5, transfer);
+    const float zonal[] = {0.282094792f, 0.325735008f, 0.157695783f, 0.0f, -0.035261849f};
+    for (int i = 0; i < 25; ++i) {
+        const int l = shDegree(i);
+        const float expected = i == shIndex(l, 0) ? zonal[l] : 0.0f;
+        EXPECT_NEAR(transfer[static_cast<std::size_t>(i)], expected, kFloatRounding)
+            << "function " << i;
+    }
+}
+
+// T-14: exact under rotation.
+TEST(UnshadowedTransfer, OfAnyNormalIsTheProjectedCosine) {
+    constexpr double kFloatTolerance = 2e-6;
+    for (const auto& [axis, axisWeight] : sphereQuadrature(4)) {
+        const Vec3f normal(axis);
+        std::array<float, 100> transfer{};
+        unshadowedTransfer(normal, 10, transfer);
+        std::array<double, 100> truth{};
+        auto zonal = clampedCosineZonal(10);
+        for (double& value : zonal)
+            value /= kPi;
+        rotateZonal(zonal, Vec3d(normal).normalized(), truth);
+        for (std::size_t i = 0; i < 100; ++i)
+            ASSERT_NEAR(transfer[i], truth[i], kFloatTolerance);
+    }
+}
+
+}  // namespace
+}  // namespace prt
