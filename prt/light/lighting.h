@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "prt/basis/sh.h"
+#include "prt/basis/sh_window.h"
+#include "prt/math/transform.h"
+
+namespace prt {
+
+/// Distant lighting in the SH basis: L_i = ∫ L(ω) y_i(ω) dω for each of red, green, blue (C2, C3,
+/// C5).
+struct Lighting {
+    int bandCount = 0;
+    std::vector<Vec3d> coefficients;  ///< n², W·sr⁻¹·m⁻²
+
+    Lighting() = default;
+    /// Darkness.
+    explicit Lighting(int bands)
+        : bandCount(bands),
+          coefficients(static_cast<std::size_t>(shCoefficientCount(bands)), Vec3d(0.0)) {}
+};
+
+/// The lighting turned by a rotation: f(R⁻¹ω).
+Lighting rotate(const Lighting& lighting, const Mat3d& rotation);
+
+/// Sum of two lights. Band counts must agree.
+Lighting add(const Lighting& a, const Lighting& b);
+
+Lighting scale(const Lighting& lighting, double factor);
+
+/// Each band times its factor.
+Lighting applyWindow(const Lighting& lighting, std::span<const double> factors);
+
+/// The first n bands. @param bandCount  at most lighting.bandCount
+Lighting truncate(const Lighting& lighting, int bandCount);
+
+/// The radiance that the coefficients stand for, in one direction.
+Vec3d reconstruct(const Lighting& lighting, const Vec3d& direction);
+
+/// The least Laplacian smoothing, the same for the three channels so that hue holds, under which no
+/// channel's reconstruction is negative anywhere [Sloan17]. Identity for lighting that has no
+/// negative lobes. A channel whose mean is not positive cannot be helped and is left out.
+///
+/// @return  one factor a band, the first 1
+std::vector<double> deringingFactors(const Lighting& lighting);
+
+}  // namespace prt
