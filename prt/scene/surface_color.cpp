@@ -1,0 +1,109 @@
+#include "prt/scene/surface_color.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "prt/base/assert.h"
+#include "prt/image/tone_curve.h"
+
+namespace prt {
+namespace {
+
+const Vec4f kWhite(1.0f, 1.0f, 1.0f, 1.0f);
+
+// Brings a texture coordinate into [0, 1]; what is not finite becomes 0.
+float wrapCoordinate(float coordinate, TextureWrap wrap) {
+    if (!std::isfinite(coordinate)) return 0.0f;
+    switch (wrap) {
+        case TextureWrap::repeat:
+            return coordinate - std::floor(coordinate);
+        case TextureWrap::mirroredRepeat:
+            return std::abs(coordinate - 2.0f * std::round(0.5f * coordinate));
+        case TextureWrap::clampToEdge:
+            break;
+    }
+    return std::clamp(coordinate, 0.0f, 1.0f);
+}
+
+// The texel beside the edge of a wrapped image. At a mirror the edge texel meets itself, as at a
+// clamp.
+int wrapTexel(int texel, int size, TextureWrap wrap) {
+    if (wrap == TextureWrap::repeat) return (texel + size) % size;
+    return std::clamp(texel, 0, size - 1);
+}
+
+Vec4f decodeTexel(const Rgba8& texel) {
+    return Vec4f(decodeSrgb8(texel.red), decodeSrgb8(texel.green), decodeSrgb8(texel.blue),
+                 static_cast<float>(texel.alpha) / 255.0f);
+}
+
+Vec4f sampleNearest(const Rgba8Image& image, float u, float v) {
+    const int x = std::min(static_cast<int>(u * static_cast<float>(image.width)), image.width - 1);
+    const int y =
+        std::min(static_cast<int>(v * static_cast<float>(image.height)), image.height - 1);
+    return decodeTexel(image.at(x, y));
+}
+
+// Blends the four texels around the point after decoding them: light adds linearly, code values do
+// not.
+Vec4f sampleLinear(const Rgba8Image& image, const TextureUse& texture, float u, float v) {
+    const float x = u * static_cast<float>(image.width) - 0.5f;
+    const float y = v * static_cast<float>(image.height) - 0.5f;
+    const int left = static_cast<int>(std::floor(x));
+    const int top = static_cast<int>(std::floor(y));
+    const float toRight = x - static_cast<float>(left);
+    const float toBottom = y - static_cast<float>(top);
+    const int x0 = wrapTexel(left, image.width, texture.wrapU);
+    const int x1 = wrapTexel(left + 1, image.width, texture.wrapU);
+    const int y0 = wrapTexel(top, image.height, texture.wrapV);
+    const int y1 = wrapTexel(top + 1, image.height, texture.wrapV);
+    const Vec4f upper =
+        decodeTexel(image.at(x0, y0)) * (1.0f - toRight) + decodeTexel(image.at(x1, y0)) * toRight;
+    const Vec4f lower =
+        decodeTexel(image.at(x0, y1)) * (1.0f - toRight) + decodeTexel(image.at(x1, y1)) * toRight;
+    return upper * (1.0f - toBottom) + lower * toBottom;
+}
+
+template <class Value>
+Value interpolate(const Mesh& mesh, const SurfacePoint& point, const std::vector<Value>& values) {
+    const std::uint32_t* corners = &mesh.indices[3 * point.triangle];
+    return values[corners[0]] * (1.0f - point.u - point.v) + values[corners[1]] * point.u +
+           values[corners[2]] * point.v;
+}
+
+// A reflectance; what is not a number becomes 0.
+float clampReflectance(float value) {
+    return std::min(std::max(0.0f, value), 1.0f);
+}
+
+}  // namespace
+
+Vec4f sampleTexture(const Scene& scene, const TextureUse& texture, const Vec2f& uv) {
+    const Rgba8Image& image = scene.images[texture.image].pixels;
+    if (image.pixels.empty()) return kWhite;
+    const float u = wrapCoordinate(uv.x, texture.wrapU);
+    const float v = wrapCoordinate(uv.y, texture.wrapV);
+    return texture.filter == TextureFilter::nearest ? sampleNearest(image, u, v)
+                                                    : sampleLinear(image, texture, u, v);
+}
+
+Vec4f evaluateBaseColor(const Scene& scene, const SurfacePoint& point) {
+    const Mesh& mesh = scene.meshes[point.mesh];
+    PRT_ASSERT(point.triangle < mesh.triangleCount(), "the point lies on a triangle of the mesh");
+    const Material& material = scene.materials[mesh.material];
+    Vec4f color = material.baseColorFactor;
+    if (!mesh.colors.empty()) color *= interpolate(mesh, point, mesh.colors);
+    if (material.baseColorTexture) {
+        const TextureUse& texture = *material.baseColorTexture;
+        const std::vector<Vec2f>& uvs = mesh.uvSets[texture.uvSet == 1 ? 1 : 0];
+        if (!uvs.empty()) color *= sampleTexture(scene, texture, interpolate(mesh, point, uvs));
+    }
+    return Vec4f(clampReflectance(color.x), clampReflectance(color.y), clampReflectance(color.z),
+                 color.w);
+}
+
+bool isMasked(const Material& material) {
+    return material.alphaMode == AlphaMode::mask;
+}
+
+}  // namespace prt

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "prt/scene/scene.h"
+
+namespace prt {
+
+/// A point of a triangle: the weights of its three corners are (1−u−v, u, v).
+struct SurfacePoint {
+    std::size_t mesh = 0;
+    std::size_t triangle = 0;  ///< within the mesh
+    float u = 0.0f;
+    float v = 0.0f;
+};
+
+/// Base colour with coverage: factor × vertex colour × texture, linear [glTF 2.0, 3.9.2]. rgb is
+/// the diffuse albedo.
+///
+/// Textures must be decoded; an undecoded one counts as white. rgb is clamped to [0, 1], as a
+/// reflectance is.
+Vec4f evaluateBaseColor(const Scene& scene, const SurfacePoint& point);
+
+/// One linear RGBA sample of a texture, with its wrap modes and filter.
+Vec4f sampleTexture(const Scene& scene, const TextureUse& texture, const Vec2f& uv);
+
+/// Whether the material's texture or vertex alpha can let light through (alpha mode "mask").
+bool isMasked(const Material& material);
+
+}  // namespace prt
