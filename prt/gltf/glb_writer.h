@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "prt/gltf/gltf_document.h"
+#include "prt/scene/scene.h"
+
+namespace prt {
+
+/// One more vertex attribute for a mesh. Its values are asked for once there is room for them in
+/// the file's memory, so that large ones are never held twice.
+struct GlbAttribute {
+    std::string semantic;  ///< "_PRT_0"
+    AccessorInfo info;
+    /// Writes all values, tightly packed and little endian, into the span, which has just the room.
+    std::function<void(std::span<std::byte> values)> write;
+};
+
+/// What an extension adds to a plain scene file.
+struct GlbExtension {
+    std::string name;
+    std::string rootJson;                               ///< the root's extension object
+    std::vector<std::string> meshJson;                  ///< one object a mesh of the scene
+    std::vector<std::vector<GlbAttribute>> attributes;  ///< for each mesh
+};
+
+/// A CRC-32 as the extension's checksums write it: eight lower-case hexadecimal digits.
+std::string formatChecksum(std::uint32_t crc32);
+
+/// The scene as a binary glTF: one node and one mesh with one primitive for each mesh of the scene,
+/// materials, images as they came, cameras. Passes the Khronos validator without errors or
+/// warnings. Meshes without a triangle are left out, and colour factors are clamped to what glTF
+/// allows.
+///
+/// @param extension  optional; listed in extensionsUsed, never in extensionsRequired. Its root
+/// object is given a member
+///                   "checksums", an array with the CRC-32 of each buffer view, and each of its
+///                   mesh objects one that maps the mesh's attributes to those of their values
+/// @throws Error     malformed if the scene holds a number that is not finite; limitExceeded beyond
+/// the 4 GiB that a
+///                   binary glTF can have
+std::vector<std::byte> encodeGlb(const Scene& scene, const GlbExtension* extension = nullptr);
+
+/// Writes a plain scene atomically. @throws Error as encodeGlb, and writeFailed
+void writeScene(const std::filesystem::path& path, const Scene& scene);
+
+}  // namespace prt

@@ -1,0 +1,487 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "prt/base/error.h"
+#include "prt/gltf/gltf_scene.h"
+#include "tests/gltf/gltf_builder.h"
+#include "tests/gltf/scene_promises.h"
+
+namespace prt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A small file in which every part is used: sparse and interleaved accessors, a texture, a camera,
+/// a hierarchy.
+GltfBuilder makeFullFile() {
+    GltfBuilder builder;
+    const std::vector<float> vertices = {0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0,
+                                         0, 1, 0, 0, 0, 1, 0, 1, 1, 1, 0, 0, 0, 1, 1, 1};
+    const auto view = builder.addView(vertices, 32);
+    const auto slice = [&](int byteOffset, const char* type) {
+        return builder.add("accessors", {{"bufferView", view},
+                                         {"byteOffset", byteOffset},
+                                         {"componentType", 5126},
+                                         {"type", type},
+                                         {"count", 4}});
+    };
+    const auto positions = slice(0, "VEC3");
+    builder.json["accessors"][positions]["sparse"] = {
+        {"count", 1},
+        {"indices",
+         {{"bufferView", builder.addView(std::vector<std::uint8_t>{3})}, {"componentType", 5121}}},
+        {"values", {{"bufferView", builder.addView(std::vector<float>{2, 2, 0})}}}};
+    const std::vector<std::uint8_t> white(16, 255);
+    const auto colors = builder.addArray(white, "VEC4", 4);
+    builder.json["accessors"][colors]["normalized"] = true;
+    const auto indices =
+        builder.addArray(std::vector<std::uint16_t>{0, 1, 2, 1, 3, 2}, "SCALAR", 6);
+
+    const std::vector<std::uint8_t> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+    builder.add("images", {{"bufferView", builder.addView(png)}, {"mimeType", "image/png"}});
+    builder.add("samplers", {{"wrapS", 33071}});
+    builder.add("textures", {{"source", 0}, {"sampler", 0}});
+    builder.add(
+        "materials",
+        {{"alphaMode", "MASK"},
+         {"pbrMetallicRoughness",
+          {{"baseColorTexture", {{"index", 0}}}, {"baseColorFactor", {0.5, 0.5, 0.5, 1}}}}});
+    builder.add("cameras",
+                {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 1}}}});
+    builder.addMeshNode({{"attributes",
+                          {{"POSITION", positions},
+                           {"NORMAL", slice(12, "VEC3")},
+                           {"TEXCOORD_0", slice(24, "VEC2")},
+                           {"COLOR_0", colors}}},
+                         {"indices", indices},
+                         {"material", 0}},
+                        {{"rotation", {0, 0.6, 0, 0.8}}, {"scale", {-1, 2, 1}}});
+    builder.add("nodes", {{"camera", 0}, {"children", {0}}, {"translation", {1, 2, 3}}});
+    builder.add("scenes", {{"nodes", {1}}});
+    builder.json["scene"] = 0;
+    return builder;
+}
+
+/// Whether a scene is read; one that is must keep every promise, one that is not must say why.
+template <class Read>
+bool isSafelyRead(Read read) {
+    try {
+        expectSceneKeepsItsPromises(read());
+        return true;
+    } catch (const Error& error) {
+        EXPECT_STRNE(error.what(), "");
+        return false;
+    }
+}
+
+bool isRead(const fs::path& path) {
+    return isSafelyRead([&] { return readGltf(path); });
+}
+
+/// Reads from memory, so that thousands of variants need no disk; no file may be named.
+bool isRead(std::span<const std::byte> file) {
+    return isSafelyRead([&] {
+        return GltfDocument({file.begin(), file.end()}, "/nonexistent").flatten().scene;
+    });
+}
+
+bool isRead(const std::string& text) {
+    return isRead(std::as_bytes(std::span(text)));
+}
+bool isRead(const GltfBuilder& builder) {
+    return isRead(std::span<const std::byte>(builder.glb()));
+}
+
+void expectRefused(const GltfBuilder& builder, const std::string& why) {
+    EXPECT_FALSE(isRead(builder)) << why;
+}
+
+TEST(GltfHostile, TheFullFileIsWhole) {
+    EXPECT_TRUE(isRead(makeFullFile()));
+    EXPECT_TRUE(isRead(makeFullFile().gltf()));
+}
+
+TEST(GltfHostile, NoPrefixOfABinaryFileIsRead) {
+    const std::vector<std::byte> whole = makeFullFile().glb();
+    for (std::size_t length = 0; length < whole.size(); ++length)
+        ASSERT_FALSE(isRead(std::span(whole).first(length))) << length;
+}
+
+TEST(GltfHostile, NoPrefixOfATextFileIsRead) {
+    const std::string whole = makeFullFile().gltf();
+    for (std::size_t length = 0; length < whole.size(); ++length)
+        ASSERT_FALSE(isRead(whole.substr(0, length))) << length;
+}
+
+/// Changes every byte in four ways and demands that the result is refused or keeps every promise.
+void expectEveryByteChangeIsSafe(std::vector<std::byte> file) {
+    std::size_t readCount = 0;
+    for (std::size_t i = 0; i < file.size(); ++i) {
+        const unsigned original = std::to_integer<unsigned>(file[i]);
+        for (const unsigned changed : {original + 1, original - 1, 0u, 0xffu}) {
+            file[i] = static_cast<std::byte>(changed & 0xff);
+            readCount += isRead(std::span<const std::byte>(file));
+            ASSERT_FALSE(::testing::Test::HasFailure()) << "byte " << i << " made " << changed;
+        }
+        file[i] = static_cast<std::byte>(original);
+    }
+    EXPECT_GT(readCount, 0u) << "some changes, as of a colour, leave a readable file";
+}
+
+TEST(GltfHostile, EveryByteChangeOfABinaryFileIsSafe) {
+    expectEveryByteChangeIsSafe(makeFullFile().glb());
+}
+
+TEST(GltfHostile, EveryByteChangeOfATextFileIsSafe) {
+    const std::string text = makeFullFile().gltf();
+    const auto bytes = std::as_bytes(std::span(text));
+    expectEveryByteChangeIsSafe({bytes.begin(), bytes.end()});
+}
+
+/// Calls `visit` with a copy of the file for each member and element of its JSON, and the pointer
+/// to it.
+template <class Visit>
+void forEachValue(const GltfBuilder& whole, Visit visit) {
+    const Json flat = whole.json.flatten();
+    for (const auto& [pointer, value] : flat.items()) {
+        for (Json::json_pointer place(pointer); !place.empty(); place.pop_back()) {
+            GltfBuilder changed = whole;
+            visit(changed, place);
+        }
+    }
+}
+
+TEST(GltfHostile, EveryValueMayBeOfAnyTypeAndSize) {
+    const std::vector<std::string> values = {"null",
+                                             "true",
+                                             "-1",
+                                             "0.5",
+                                             "2147483648",
+                                             "4294967295",
+                                             "9007199254740992",
+                                             "9007199254740993",
+                                             "18446744073709551615",
+                                             "1e300",
+                                             "-1e300",
+                                             "1e-300",
+                                             "\"0\"",
+                                             "[]",
+                                             "{}",
+                                             "[0]",
+                                             "[[[]]]",
+                                             "{\"index\":0}"};
+    forEachValue(makeFullFile(), [&](const GltfBuilder& whole, const Json::json_pointer& place) {
+        for (const std::string& value : values) {
+            GltfBuilder changed = whole;
+            changed.json[place] = Json::parse(value);
+            isRead(changed);
+            ASSERT_FALSE(::testing::Test::HasFailure()) << place << " made " << value;
+        }
+    });
+}
+
+TEST(GltfHostile, EveryValueMayBeMissing) {
+    forEachValue(makeFullFile(), [&](GltfBuilder& changed, const Json::json_pointer& place) {
+        Json& parent = changed.json[place.parent_pointer()];
+        if (parent.is_array())
+            parent.erase(std::stoul(place.back()));
+        else
+            parent.erase(place.back());
+        isRead(changed);
+        ASSERT_FALSE(::testing::Test::HasFailure()) << place << " left out";
+    });
+}
+
+TEST(GltfHostile, WhatMustBeAWholeNumberIsNothingElse) {
+    const std::vector<const char*> places = {
+        "/buffers/0/byteLength",
+        "/bufferViews/0/buffer",
+        "/bufferViews/0/byteOffset",
+        "/bufferViews/0/byteLength",
+        "/bufferViews/0/byteStride",
+        "/accessors/0/bufferView",
+        "/accessors/0/byteOffset",
+        "/accessors/0/componentType",
+        "/accessors/0/count",
+        "/accessors/0/sparse/count",
+        "/accessors/0/sparse/indices/bufferView",
+        "/accessors/0/sparse/values/bufferView",
+        "/meshes/0/primitives/0/indices",
+        "/meshes/0/primitives/0/material",
+        "/meshes/0/primitives/0/mode",
+        "/meshes/0/primitives/0/attributes/POSITION",
+        "/nodes/0/mesh",
+        "/nodes/1/camera",
+        "/nodes/1/children/0",
+        "/scenes/0/nodes/0",
+        "/scene",
+        "/textures/0/source",
+        "/textures/0/sampler",
+        "/materials/0/pbrMetallicRoughness/baseColorTexture/index"};
+    for (const char* place : places) {
+        for (const char* value :
+             {"\"0\"", "0.5", "-1", "2147483648", "9007199254740993", "null", "[0]"}) {
+            GltfBuilder builder = makeFullFile();
+            builder.json = builder.finished();
+            builder.json[Json::json_pointer(place)] = Json::parse(value);
+            expectRefused(builder, std::string(place) + " made " + value);
+        }
+    }
+}
+
+TEST(GltfHostile, OffsetsAndLengthsThatWrapAroundAreRefused) {
+    const std::uint64_t huge = std::uint64_t(1) << 53;
+    for (const std::uint64_t number : {huge, huge - 4, huge / 2, std::uint64_t(1) << 32}) {
+        for (const char* place :
+             {"/bufferViews/0/byteOffset", "/bufferViews/0/byteLength", "/accessors/0/byteOffset",
+              "/accessors/0/count", "/accessors/0/sparse/indices/byteOffset",
+              "/accessors/0/sparse/values/byteOffset"}) {
+            GltfBuilder builder = makeFullFile();
+            builder.json[Json::json_pointer(place)] = number;
+            expectRefused(builder, place);
+        }
+    }
+}
+
+TEST(GltfHostile, ElementsBeyondTheirViewAreRefused) {
+    for (const auto& [place, value] :
+         std::vector<std::pair<const char*, int>>{{"/accessors/0/count", 5},
+                                                  {"/accessors/0/byteOffset", 24},
+                                                  {"/bufferViews/0/byteLength", 127},
+                                                  {"/bufferViews/0/byteOffset", 2},
+                                                  {"/bufferViews/0/byteStride", 2},
+                                                  {"/bufferViews/0/byteStride", 8},
+                                                  {"/bufferViews/0/byteStride", 30},
+                                                  {"/bufferViews/0/byteStride", 256},
+                                                  {"/accessors/0/byteOffset", 2},
+                                                  {"/accessors/0/sparse/count", 2},
+                                                  {"/accessors/0/sparse/count", 0}}) {
+        GltfBuilder builder = makeFullFile();
+        if (std::string(place) == "/bufferViews/0/byteLength")
+            builder.json["accessors"][2]["byteOffset"] = 24;
+        builder.json[Json::json_pointer(place)] = value;
+        expectRefused(builder, std::string(place) + " made " + std::to_string(value));
+    }
+}
+
+GltfBuilder makeIndexedFile(const std::vector<std::uint8_t>& corners, std::size_t vertexCount) {
+    GltfBuilder builder;
+    const auto positions = builder.addVectors(std::vector<float>(3 * vertexCount, 1.0f));
+    const auto indices = builder.addArray(corners, "SCALAR", corners.size());
+    builder.addMeshNode({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+    return builder;
+}
+
+TEST(GltfHostile, IndicesMustBeVertices) {
+    EXPECT_NO_THROW(makeIndexedFile({0, 1, 2}, 3).read());
+    expectRefused(makeIndexedFile({0, 1, 3}, 3), "an index beyond the vertices");
+    expectRefused(makeIndexedFile({0, 1, 255}, 300), "a primitive restart");
+    GltfBuilder floats = makeTriangleFile();
+    floats.json["meshes"][0]["primitives"][0]["indices"] = 0;
+    expectRefused(floats, "positions for indices");
+}
+
+TEST(GltfHostile, PositionsMustBeFinite) {
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
+        GltfBuilder builder;
+        builder.addMeshNode(
+            {{"attributes", {{"POSITION", builder.addVectors({0, 0, 0, 1, bad, 0, 0, 1, 0})}}}});
+        const ScratchFolder folder;
+        try {
+            readGltf(folder.write("scene.glb", builder.glb()));
+            FAIL() << bad << " was accepted";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::malformed);
+            EXPECT_NE(std::string(error.what()).find("meshes[0].primitives[0].attributes.POSITION"),
+                      std::string::npos);
+        }
+    }
+}
+
+TEST(GltfHostile, TransformsThatOverflowAreRefused) {
+    GltfBuilder builder = makeTriangleFile();
+    builder.json["nodes"][0]["scale"] = {1e30, 1e30, 1e30};
+    builder.add("nodes", {{"children", {0}}, {"scale", {1e30, 1e30, 1e30}}});
+    expectRefused(builder, "beyond float");
+    builder.json["nodes"][1]["scale"] = {1e300, 1e300, 1e300};
+    builder.json["nodes"][0]["scale"] = {1e300, 1e300, 1e300};
+    expectRefused(builder, "beyond double");
+}
+
+TEST(GltfHostile, NodesMustBeAForest) {
+    GltfBuilder own = makeTriangleFile();
+    own.json["nodes"][0]["children"] = {0};
+    expectRefused(own, "its own child");
+    GltfBuilder circle = makeTriangleFile();
+    circle.add("nodes", {{"children", {2}}});
+    circle.add("nodes", {{"children", {1}}});
+    expectRefused(circle, "a circle beside the scene");
+    GltfBuilder shared = makeTriangleFile();
+    shared.add("nodes", {{"children", {0}}});
+    shared.add("nodes", {{"children", {0}}});
+    expectRefused(shared, "two parents");
+    GltfBuilder inner = makeTriangleFile();
+    inner.add("nodes", {{"children", {0}}});
+    inner.json["scene"] = 0;
+    inner.json["scenes"] = {{{"nodes", {0}}}};
+    expectRefused(inner, "a scene whose root has a parent");
+    GltfBuilder twice = makeTriangleFile();
+    twice.json["scenes"] = {{{"nodes", {0, 0}}}};
+    expectRefused(twice, "a scene that lists a node twice");
+}
+
+TEST(GltfHostile, MalformedTransformsAreRefused) {
+    for (const Json& node : {Json{{"rotation", {0, 0, 0, 0}}}, Json{{"rotation", {1, 1, 1, 1}}},
+                             Json{{"scale", {1, 1}}}, Json{{"matrix", {1, 0, 0, 1}}},
+                             Json{{"matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}},
+                             Json{{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
+                                  {"scale", {1, 1, 1}}}}) {
+        GltfBuilder builder = makeTriangleFile();
+        builder.json["nodes"][0].update(node);
+        expectRefused(builder, node.dump());
+    }
+}
+
+/// A triangle whose buffer is beside it, or wherever the URI says.
+std::string makeFileWithUri(const std::string& uri) {
+    GltfBuilder builder = makeTriangleFile();
+    builder.json["buffers"] = {{{"byteLength", builder.bytes.size()}, {"uri", uri}}};
+    return builder.gltf();
+}
+
+TEST(GltfHostile, UrisMayNotLeaveTheFolder) {
+    // The file that each would reach is there, so that only the check stands between.
+    const ScratchFolder folder;
+    const std::vector<std::byte> bytes = makeTriangleFile().bytes;
+    const std::string outside = folder.write("outside.bin", bytes).string();
+    folder.write("asset/inside.bin", bytes);
+    folder.write("asset/deep/inside.bin", bytes);
+    fs::create_symlink(outside, folder.path() / "asset/link.bin");
+    fs::create_directory_symlink(folder.path(), folder.path() / "asset/up");
+    fs::create_symlink("inside.bin", folder.path() / "asset/alias.bin");
+    const auto isReadThrough = [&](const std::string& uri) {
+        return isRead(folder.write("asset/scene.gltf", makeFileWithUri(uri)));
+    };
+    for (const char* uri : {"inside.bin", "./inside.bin", "deep/inside.bin", "deep/./inside.bin",
+                            "%69nside.bin", "alias.bin"})
+        EXPECT_TRUE(isReadThrough(uri)) << uri;
+
+    const std::vector<std::string> refused = {"../outside.bin",
+                                              "deep/../../outside.bin",
+                                              "deep/../inside.bin",
+                                              "./../outside.bin",
+                                              "%2e%2e/outside.bin",
+                                              "%2E%2e%2Foutside.bin",
+                                              "..%2foutside.bin",
+                                              ".%2e/outside.bin",
+                                              "..\\outside.bin",
+                                              "%2e%2e%5coutside.bin",
+                                              "deep\\inside.bin",
+                                              outside,
+                                              "/" + outside,
+                                              "file://" + outside,
+                                              "FILE://" + outside,
+                                              "file:" + outside,
+                                              "file%3A//" + outside,
+                                              "http://localhost/inside.bin",
+                                              "https:inside.bin",
+                                              "C:/outside.bin",
+                                              "C:outside.bin",
+                                              "%2F" + outside.substr(1),
+                                              "link.bin",
+                                              "up/outside.bin",
+                                              "",
+                                              "inside.bin%00",
+                                              "inside.bin%",
+                                              "inside.bin%2",
+                                              "inside.bin%zz",
+                                              std::string("inside.bin\0", 11),
+                                              "inside.bin\n",
+                                              ".",
+                                              "deep",
+                                              "$(cat inside.bin)",
+                                              "`cat inside.bin`",
+                                              "~/inside.bin",
+                                              "*.bin",
+                                              "/dev/stdin",
+                                              "%252e%252e/outside.bin"};
+    for (const std::string& uri : refused)
+        EXPECT_FALSE(isReadThrough(uri)) << uri;
+}
+
+TEST(GltfHostile, DataUrisMustBeBase64) {
+    const std::string good =
+        "data:application/octet-stream;base64," + encodeBase64(makeTriangleFile().bytes);
+    const auto isReadThrough = [&](const std::string& uri) { return isRead(makeFileWithUri(uri)); };
+    EXPECT_TRUE(isReadThrough(good));
+    EXPECT_TRUE(isReadThrough("data:;base64," + encodeBase64(makeTriangleFile().bytes)));
+    for (const std::string& uri : std::vector<std::string>{
+             "data:", "data:,", "data:;base64,", "data:application/octet-stream,AAAA",
+             good.substr(0, good.size() - 4), good.substr(0, good.size() - 7), good + "=",
+             good + "\n", "data:;base64,====", "data:;base64,A===",
+             "data:;base64," + std::string(48, '*'), "data:;base64,=" + std::string(47, 'A')})
+        EXPECT_FALSE(isReadThrough(uri)) << uri;
+}
+
+TEST(GltfHostile, AMissingBufferIsNotFound) {
+    const ScratchFolder folder;
+    try {
+        readGltf(folder.write("scene.gltf", makeFileWithUri("absent.bin")));
+        FAIL() << "a file that is not there was read";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::notFound);
+        EXPECT_EQ(fs::path(error.where()).filename(), "absent.bin");
+    }
+}
+
+TEST(GltfHostile, ABufferNamedManyTimesCountsEachTime) {
+    const ScratchFolder folder;
+    GltfBuilder builder = makeTriangleFile();
+    folder.write("big.bin", std::string(1 << 20, 'x'));
+    builder.json["buffers"] = Json::array();
+    for (int i = 0; i < 100; ++i)
+        builder.json["buffers"].push_back({{"byteLength", 1 << 20}, {"uri", "big.bin"}});
+    const fs::path path = folder.write("scene.gltf", builder.finished().dump());
+    EXPECT_NO_THROW(readGltf(path));
+    EXPECT_THROW(readGltf(path, {.maxFileBytes = 50 << 20}), Error);
+}
+
+TEST(GltfHostile, DeepJsonIsRefused) {
+    for (const std::string& nest :
+         {std::string(100'000, '['), std::string(100'000, '[') + std::string(100'000, ']')})
+        EXPECT_FALSE(isRead(nest));
+    std::string objects = R"({"asset":{"version":"2.0"},"extras":)";
+    for (int i = 0; i < 100'000; ++i)
+        objects += "{\"a\":";
+    EXPECT_FALSE(isRead(objects));
+}
+
+TEST(GltfHostile, TextThatIsNoGltfIsRefused) {
+    const ScratchFolder folder;
+    for (const char* text : {"", " ", "null", "[]", "{}", "\"glTF\"", "glTF", "{\"asset\":1}",
+                             R"({"asset":{"version":2}})", R"({"asset":{"version":"1.0"}})",
+                             R"({"asset":{"version":"2.0","minVersion":"2.1"}})",
+                             R"({"asset":{"version":"2.0"}})", R"({"asset":{"version":"2.0"}} x)",
+                             R"({"asset":{"version":"2.0"},"extras":1e999})", "{\"\xff\":1}"})
+        EXPECT_FALSE(isRead(std::string(text))) << text;
+    EXPECT_THROW(readGltf(folder.path() / "absent.gltf"), Error);
+    EXPECT_THROW(readGltf(folder.path()), Error);
+}
+
+TEST(GltfHostile, CountsWithoutBytesBehindThemAreLimited) {
+    // A sparse accessor without a view has as many zeros as it says.
+    GltfBuilder builder = makeTriangleFile();
+    builder.json["accessors"][0].erase("bufferView");
+    for (const char* count : {"2147483648", "9007199254740992"}) {
+        builder.json["accessors"][0]["count"] = Json::parse(count);
+        expectRefused(builder, count);
+    }
+}
+
+}  // namespace
+}  // namespace prt::test
