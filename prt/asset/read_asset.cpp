@@ -1,0 +1,232 @@
+#include "prt/asset/asset.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "prt/asset/asset_header.h"
+#include "prt/base/checksum.h"
+#include "prt/base/error.h"
+#include "prt/gltf/glb_writer.h"
+#include "prt/gltf/gltf_document.h"
+#include "prt/gltf/json_cursor.h"
+
+namespace prt {
+namespace {
+
+[[noreturn]] void reject(const std::string& complaint) {
+    throw Error(ErrorCode::malformed, complaint);
+}
+
+AssetHeader readHeader(const GltfDocument& document) {
+    const std::optional<std::string> json = document.rootExtension(kAssetExtension);
+    if (!json)
+        throw Error(
+            ErrorCode::unsupported,
+            std::string("holds no radiance transfer (the glTF extension ") + kAssetExtension + ")",
+            {}, "bake it first: prt bake");
+    return parseHeader(*json);
+}
+
+void checkBufferViews(const GltfDocument& document, const std::vector<std::string>& checksums) {
+    if (checksums.size() != document.bufferViewCount())
+        reject("has " + std::to_string(document.bufferViewCount()) + " buffer views, but " +
+               std::to_string(checksums.size()) + " checksums");
+    for (std::size_t view = 0; view < checksums.size(); ++view)
+        if (checksums[view] != formatChecksum(computeCrc32(document.bufferViewBytes(view))))
+            reject("is damaged: the checksum of buffer view " + std::to_string(view) + " differs");
+}
+
+/// The attributes of one primitive, each held to the checksum that binds it to the primitive.
+class BoundAttributes {
+  public:
+    BoundAttributes(const GltfDocument& document, const PrimitiveId& id)
+        : document_(document),
+          id_(id),
+          place_("mesh " + std::to_string(id.mesh) + ", primitive " +
+                 std::to_string(id.primitive)) {
+        const std::optional<std::string> json = document.primitiveExtension(id, kAssetExtension);
+        if (!json) reject(place_ + " has no radiance transfer, as all of an asset's must have");
+        const gltf::Json parsed = gltf::parseJson(*json);
+        const gltf::JsonCursor object(parsed, place_);
+        for (const auto& [semantic, checksum] : object.at("checksums").members())
+            checksums_.emplace(semantic, checksum.toString());
+    }
+
+    const std::string& place() const { return place_; }
+
+    /// The bytes of an attribute of the given form, tightly packed.
+    std::vector<std::byte> read(const std::string& semantic, const AccessorInfo& expected) const {
+        std::vector<std::byte> values = document_.readRaw(find(semantic, expected));
+        const auto checksum = checksums_.find(semantic);
+        if (checksum == checksums_.end() ||
+            checksum->second != formatChecksum(computeCrc32(values)))
+            reject(semantic + " of " + place_ +
+                   " is not what was baked: its checksum is missing or differs");
+        return values;
+    }
+
+  private:
+    std::size_t find(const std::string& semantic, const AccessorInfo& expected) const {
+        const std::optional<std::size_t> accessor = document_.attributeAccessor(id_, semantic);
+        if (!accessor) reject(place_ + " lacks " + semantic);
+        const AccessorInfo info = document_.describeAccessor(*accessor);
+        if (info.count != expected.count || info.componentCount != expected.componentCount ||
+            info.type != expected.type || info.normalized != expected.normalized)
+            reject(semantic + " of " + place_ + " is not of the form that the asset's header says");
+        return *accessor;
+    }
+
+    const GltfDocument& document_;
+    PrimitiveId id_;
+    std::string place_;
+    std::map<std::string, std::string> checksums_;
+};
+
+/// Demands that a mesh is where it was baked and as it was baked: transfer belongs to the place,
+/// and to the normal.
+void checkGeometry(const BoundAttributes& attributes, const Mesh& mesh) {
+    const AccessorInfo vectors{mesh.vertexCount(), 3};
+    const std::vector<std::byte> positions = attributes.read("POSITION", vectors);
+    attributes.read("NORMAL", vectors);
+    for (std::size_t vertex = 0; vertex < mesh.vertexCount(); ++vertex) {
+        std::array<float, 3> xyz;
+        std::memcpy(xyz.data(), positions.data() + vertex * sizeof(xyz), sizeof(xyz));
+        if (Vec3f(xyz[0], xyz[1], xyz[2]) != mesh.positions[vertex])
+            reject(attributes.place() + " is moved by its node, away from where it was baked");
+    }
+}
+
+/// Copies the coefficients [4·part, 4·part + 4) of each vertex to its row; those beyond the last
+/// must be zero.
+void placeAttribute(std::span<const std::byte> values, std::size_t elementBytes, std::size_t part,
+                    std::size_t rowBytes, std::span<std::byte> rows) {
+    const std::size_t begin = part * elementBytes;
+    const std::size_t usedBytes = std::min(elementBytes, rowBytes - begin);
+    for (std::size_t source = 0, row = 0; source < values.size();
+         source += elementBytes, row += rowBytes) {
+        const std::span<const std::byte> element = values.subspan(source, elementBytes);
+        std::memcpy(rows.data() + row + begin, element.data(), usedBytes);
+        const std::span<const std::byte> padding = element.subspan(usedBytes);
+        if (std::any_of(padding.begin(), padding.end(),
+                        [](std::byte b) { return b != std::byte{0}; }))
+            reject("holds a number other than 0 beyond the last coefficient");
+    }
+}
+
+/// Demands that floats are finite and of a size that transfer can have; quantised ones are so by
+/// their ranges.
+void checkCoefficients(const CompressedLayer& layer) {
+    if (layer.encoding != TransferEncoding::float32) return;
+    for (std::size_t offset = 0; offset < layer.data.size(); offset += sizeof(float)) {
+        float value = 0.0f;
+        std::memcpy(&value, layer.data.data() + offset, sizeof(value));
+        if (!(std::abs(value) <= kMaxCoefficient))
+            reject("holds a coefficient beyond ±" +
+                   std::to_string(static_cast<int>(kMaxCoefficient)));
+    }
+}
+
+/// Reads the rows of one layer for the vertices of one mesh.
+void readRows(const BoundAttributes& attributes, const AttributeRange& range, std::size_t rowBytes,
+              const CompressedLayer& layer, std::span<std::byte> rows) {
+    const AccessorInfo info = attributeInfo(layer, rows.size() / rowBytes);
+    const std::size_t elementBytes =
+        kCoefficientsPerAttribute * bytesPerCoefficient(layer.encoding);
+    for (std::size_t part = 0; part < range.count; ++part) {
+        const std::string semantic = attributeSemantic(range.first + part);
+        placeAttribute(attributes.read(semantic, info), elementBytes, part, rowBytes, rows);
+    }
+}
+
+/// Makes room for all layers, no more than the file has bytes for.
+void allocateLayers(const GltfDocument& document, CompressedTransfer& transfer) {
+    std::size_t bytesLeft = 0;
+    for (std::size_t view = 0; view < document.bufferViewCount(); ++view)
+        bytesLeft += document.bufferViewBytes(view).size();
+    for (CompressedLayer& layer : transfer.layers) {
+        const std::size_t rowBytes = layerRowBytes(transfer.bandCount, layer);
+        if (transfer.receiverCount > bytesLeft / rowBytes)
+            reject("has more vertices than coefficients");
+        layer.data.resize(transfer.receiverCount * rowBytes);
+        bytesLeft -= layer.data.size();
+    }
+}
+
+CompressedTransfer readTransfer(const GltfDocument& document, const FlattenedGltf& flattened,
+                                AssetHeader header) {
+    const Scene& scene = flattened.scene;
+    CompressedTransfer transfer;
+    transfer.bandCount = header.bandCount;
+    transfer.receiverCount = scene.vertexCount();
+    transfer.layers = std::move(header.layers);
+    allocateLayers(document, transfer);
+    transfer.receiverOfVertex.resize(transfer.receiverCount);
+    std::iota(transfer.receiverOfVertex.begin(), transfer.receiverOfVertex.end(), 0u);
+
+    const std::vector<std::size_t> offsets = vertexOffsets(scene);
+    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        const BoundAttributes attributes(document, flattened.primitiveOfMesh[mesh]);
+        checkGeometry(attributes, scene.meshes[mesh]);
+        for (std::size_t i = 0; i < transfer.layers.size(); ++i) {
+            CompressedLayer& layer = transfer.layers[i];
+            const std::size_t rowBytes = layerRowBytes(transfer.bandCount, layer);
+            const std::size_t meshBytes = scene.meshes[mesh].vertexCount() * rowBytes;
+            readRows(attributes, header.ranges[i], rowBytes, layer,
+                     std::span(layer.data).subspan(offsets[mesh] * rowBytes, meshBytes));
+        }
+    }
+    for (const CompressedLayer& layer : transfer.layers)
+        checkCoefficients(layer);
+    return transfer;
+}
+
+/// Demands that no primitive stands in the scene twice: each place receives light of its own.
+void checkInstances(const std::vector<PrimitiveId>& primitiveOfMesh) {
+    std::set<std::pair<std::size_t, std::size_t>> seen;
+    for (const PrimitiveId& id : primitiveOfMesh)
+        if (!seen.emplace(id.mesh, id.primitive).second)
+            reject("places mesh " + std::to_string(id.mesh) +
+                   " twice, with the transfer of one place");
+}
+
+Asset readFrom(const GltfDocument& document) {
+    AssetHeader header = readHeader(document);
+    checkBufferViews(document, header.checksums);
+    FlattenedGltf flattened = document.flatten();
+    checkInstances(flattened.primitiveOfMesh);
+    if (flattened.scene.vertexCount() != header.vertexCount)
+        reject("has " + std::to_string(flattened.scene.vertexCount()) + " vertices, not the " +
+               std::to_string(header.vertexCount) + " of the bake");
+
+    Asset asset;
+    asset.provenance = header.provenance;
+    asset.transfer = readTransfer(document, flattened, std::move(header));
+    asset.scene = std::move(flattened.scene);
+    return asset;
+}
+
+}  // namespace
+
+Asset readAsset(const std::filesystem::path& path) {
+    const GltfDocument document(path);
+    try {
+        return readFrom(document);
+    } catch (const Error& error) {
+        if (!error.where().empty()) throw;
+        throw Error(error.code(), error.what(), path.string(), error.hint());
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::outOfMemory, "does not fit in memory", path.string());
+    }
+}
+
+}  // namespace prt

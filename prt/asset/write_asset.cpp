@@ -1,0 +1,90 @@
+#include "prt/asset/asset.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+#include "prt/asset/asset_header.h"
+#include "prt/base/assert.h"
+#include "prt/base/file.h"
+#include "prt/gltf/glb_writer.h"
+
+namespace prt {
+namespace {
+
+/// The coefficients of one mesh's vertices: a part of the scene-wide list of receivers.
+using Receivers = std::span<const std::uint32_t>;
+
+/// Copies the coefficients [4·part, 4·part + 4) of each vertex's receiver; those beyond the last
+/// stay zero.
+void copyAttribute(const CompressedTransfer& transfer, const CompressedLayer& layer,
+                   std::size_t part, Receivers receivers, std::span<std::byte> values) {
+    const std::size_t coefficientBytes = bytesPerCoefficient(layer.encoding);
+    const std::size_t rowBytes = layerRowBytes(transfer.bandCount, layer);
+    const std::size_t elementBytes = kCoefficientsPerAttribute * coefficientBytes;
+    const std::size_t begin = part * elementBytes;
+    const std::size_t copiedBytes = std::min(elementBytes, rowBytes - begin);
+    for (std::size_t vertex = 0; vertex < receivers.size(); ++vertex)
+        std::memcpy(values.data() + vertex * elementBytes,
+                    layer.data.data() + receivers[vertex] * rowBytes + begin, copiedBytes);
+}
+
+std::vector<GlbAttribute> makeAttributes(const CompressedTransfer& transfer, Receivers receivers) {
+    std::vector<GlbAttribute> attributes;
+    for (const CompressedLayer& layer : transfer.layers) {
+        const AccessorInfo info = attributeInfo(layer, receivers.size());
+        for (std::size_t part = 0; part < countAttributes(transfer.bandCount, layer); ++part) {
+            const auto write = [&transfer, &layer, part, receivers](std::span<std::byte> values) {
+                copyAttribute(transfer, layer, part, receivers, values);
+            };
+            attributes.push_back({attributeSemantic(attributes.size()), info, write});
+        }
+    }
+    return attributes;
+}
+
+void checkTransfer(const Scene& scene, const CompressedTransfer& transfer) {
+    PRT_ASSERT(transfer.receiverOfVertex.size() == scene.vertexCount(),
+               "each vertex of the scene has a receiver");
+    PRT_ASSERT(
+        std::all_of(transfer.receiverOfVertex.begin(), transfer.receiverOfVertex.end(),
+                    [&](std::uint32_t receiver) { return receiver < transfer.receiverCount; }),
+        "each vertex's receiver is one of the transfer");
+    for (const CompressedLayer& layer : transfer.layers)
+        PRT_ASSERT(
+            layer.data.size() == transfer.receiverCount * layerRowBytes(transfer.bandCount, layer),
+            "each layer has all coefficients of all receivers");
+}
+
+/// Meshes without a triangle are not written.
+std::size_t countWrittenVertices(const Scene& scene) {
+    std::size_t count = 0;
+    for (const Mesh& mesh : scene.meshes)
+        if (mesh.triangleCount() > 0) count += mesh.vertexCount();
+    return count;
+}
+
+}  // namespace
+
+std::vector<std::byte> encodeAsset(const Scene& scene, const CompressedTransfer& transfer,
+                                   const Provenance& provenance) {
+    checkTransfer(scene, transfer);
+    GlbExtension extension;
+    extension.name = kAssetExtension;
+    extension.rootJson = formatHeader(transfer, countWrittenVertices(scene), provenance);
+    const std::vector<std::size_t> offsets = vertexOffsets(scene);
+    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        extension.meshJson.push_back("{}");
+        extension.attributes.push_back(makeAttributes(
+            transfer, Receivers(transfer.receiverOfVertex)
+                          .subspan(offsets[mesh], offsets[mesh + 1] - offsets[mesh])));
+    }
+    return encodeGlb(scene, &extension);
+}
+
+void writeAsset(const std::filesystem::path& path, const Scene& scene,
+                const CompressedTransfer& transfer, const Provenance& provenance) {
+    writeFileAtomically(path, encodeAsset(scene, transfer, provenance));
+}
+
+}  // namespace prt

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "prt/transfer/transfer_field.h"
+
+namespace prt {
+
+/// How one coefficient is stored.
+enum class TransferEncoding {
+    float32,
+    unorm16,  ///< value = bias + scale · q/65535, with a scale and bias per channel and coefficient
+              ///< [Kautz04]
+    unorm8,  ///< value = bias + scale · q/255
+};
+
+std::string_view encodingName(TransferEncoding encoding);
+std::optional<TransferEncoding> parseEncoding(std::string_view name);
+std::size_t bytesPerCoefficient(TransferEncoding encoding);
+
+/// A TransferLayer as it is stored.
+struct CompressedLayer {
+    Transport transport = Transport::shadowed;
+    int channelCount = 1;
+    TransferEncoding encoding = TransferEncoding::float32;
+    std::vector<float> scale;     ///< [channel][coefficient]; empty for float32
+    std::vector<float> bias;      ///< [channel][coefficient]; empty for float32
+    std::vector<std::byte> data;  ///< [receiver][channel][coefficient], native byte order
+};
+
+/// A TransferField as it is stored.
+struct CompressedTransfer {
+    int bandCount = 0;
+    std::size_t receiverCount = 0;
+    std::vector<std::uint32_t> receiverOfVertex;
+    std::vector<CompressedLayer> layers;
+
+    const CompressedLayer* findLayer(Transport transport) const;
+};
+
+/// Decodes one layer to floats, [receiver][channel][coefficient].
+std::vector<float> expandLayer(const CompressedTransfer& transfer, const CompressedLayer& layer);
+
+}  // namespace prt

@@ -1,0 +1,51 @@
+#include "prt/transfer/transfer_field.h"
+
+#include <algorithm>
+#include <array>
+
+#include "prt/base/assert.h"
+#include "prt/basis/sh.h"
+
+namespace prt {
+namespace {
+
+/// In the order of the enumeration.
+constexpr std::array<std::string_view, 3> kTransportNames = {"unshadowed", "shadowed",
+                                                             "interreflected"};
+
+}  // namespace
+
+std::string_view transportName(Transport transport) {
+    return kTransportNames[static_cast<std::size_t>(transport)];
+}
+
+std::optional<Transport> parseTransport(std::string_view name) {
+    const auto found = std::find(kTransportNames.begin(), kTransportNames.end(), name);
+    if (found == kTransportNames.end()) return std::nullopt;
+    return static_cast<Transport>(found - kTransportNames.begin());
+}
+
+const TransferLayer* TransferField::findLayer(Transport transport) const {
+    const auto found = std::find_if(
+        layers.begin(), layers.end(),
+        [transport](const TransferLayer& layer) { return layer.transport == transport; });
+    return found == layers.end() ? nullptr : &*found;
+}
+
+std::size_t coefficientsPerReceiver(int bandCount, int channelCount) {
+    return static_cast<std::size_t>(channelCount) *
+           static_cast<std::size_t>(shCoefficientCount(bandCount));
+}
+
+std::span<const float> transferVector(const TransferField& field, const TransferLayer& layer,
+                                      std::size_t receiver, int channel) {
+    PRT_ASSERT(receiver < field.receiverCount, "the receiver is one of the field");
+    PRT_ASSERT(channel >= 0 && channel < layer.channelCount, "the channel is one of the layer");
+    const std::size_t begin =
+        receiver * coefficientsPerReceiver(field.bandCount, layer.channelCount) +
+        coefficientsPerReceiver(field.bandCount, channel);
+    return std::span(layer.coefficients)
+        .subspan(begin, coefficientsPerReceiver(field.bandCount, 1));
+}
+
+}  // namespace prt

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "prt/asset/asset.h"
+#include "prt/base/checksum.h"
+#include "prt/base/random.h"
+#include "prt/gltf/glb_writer.h"
+#include "tests/gltf/glb_file.h"
+
+namespace prt::test {
+
+/// A grid in the plane y = height, with normals that differ from vertex to vertex.
+inline Mesh makeGrid(const std::string& name, int cellCount, float height) {
+    Mesh mesh;
+    mesh.name = name;
+    const auto side = static_cast<std::uint32_t>(cellCount + 1);
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        const auto x = static_cast<float>(i % side);
+        const auto z = static_cast<float>(i / side);
+        mesh.positions.push_back(Vec3f(x, height, z) * 0.3f);
+        mesh.normals.push_back(Vec3f(0.1f * x, 1.0f, -0.1f * z).normalized());
+    }
+    for (std::uint32_t z = 0; z + 1 < side; ++z)
+        for (std::uint32_t x = 0; x + 1 < side; ++x) {
+            const std::uint32_t corner = z * side + x;
+            mesh.indices.insert(mesh.indices.end(), {corner, corner + side, corner + 1, corner + 1,
+                                                     corner + side, corner + side + 1});
+        }
+    return mesh;
+}
+
+/// Two meshes, of 9 and of 4 vertices.
+inline Scene makeTwoGrids() {
+    Scene scene;
+    scene.materials.resize(1);
+    scene.meshes = {makeGrid("floor", 2, 0.0f), makeGrid("table", 1, 1.0f)};
+    return scene;
+}
+
+/// Random stored numbers in bounds, for fewer receivers than vertices: some vertices share one.
+inline CompressedTransfer makeTransfer(const Scene& scene, int bandCount, TransferEncoding encoding,
+                                       const std::vector<Transport>& transports) {
+    CompressedTransfer transfer;
+    transfer.bandCount = bandCount;
+    transfer.receiverCount = scene.vertexCount() / 2 + 1;
+    for (std::size_t vertex = 0; vertex < scene.vertexCount(); ++vertex)
+        transfer.receiverOfVertex.push_back(
+            static_cast<std::uint32_t>((vertex * 5) % transfer.receiverCount));
+    RandomStream random(7, static_cast<std::uint64_t>(bandCount));
+    for (const Transport transport : transports) {
+        CompressedLayer layer;
+        layer.transport = transport;
+        layer.channelCount = transport == Transport::interreflected ? 3 : 1;
+        layer.encoding = encoding;
+        const std::size_t rowLength = coefficientsPerReceiver(bandCount, layer.channelCount);
+        for (std::size_t i = 0; i < transfer.receiverCount * rowLength; ++i) {
+            const float value = 0.5f * random.nextUnitFloat() - 0.25f;
+            const std::uint32_t bits = random.nextBits();
+            const std::size_t byteCount = bytesPerCoefficient(encoding);
+            const std::size_t end = layer.data.size();
+            layer.data.resize(end + byteCount);
+            if (encoding == TransferEncoding::float32)
+                std::memcpy(layer.data.data() + end, &value, byteCount);
+            else
+                std::memcpy(layer.data.data() + end, &bits, byteCount);
+        }
+        for (std::size_t i = 0; encoding != TransferEncoding::float32 && i < rowLength; ++i) {
+            layer.scale.push_back(0.3f * random.nextUnitFloat());
+            layer.bias.push_back(-0.1f * random.nextUnitFloat());
+        }
+        transfer.layers.push_back(layer);
+    }
+    return transfer;
+}
+
+inline Provenance makeProvenance() {
+    Provenance provenance;
+    provenance.generator = "OpenPRT 0.1.0";
+    provenance.command = "bake --bands 3 --samples 256";
+    provenance.sampleCount = 256;
+    provenance.bounceCount = 2;
+    provenance.seed = 18446744073709551615u;  // no double holds it
+    provenance.isa = "avx2";
+    return provenance;
+}
+
+inline nlohmann::json& headerOf(GlbFile& file) {
+    return file.json["extensions"]["OPENPRT_radiance_transfer"];
+}
+
+inline std::string checksumOf(std::span<const std::byte> bytes) {
+    return formatChecksum(computeCrc32(bytes));
+}
+
+/// Makes a layer's checksum fit what the layer says, as docs/format.md defines it.
+inline void repairLayer(nlohmann::json& layer, const nlohmann::json& bands) {
+    std::string bytes = layer["transport"].get<std::string>() + " " +
+                        layer["encoding"].get<std::string>() + " " + layer["channels"].dump() +
+                        " " + bands.dump() + " " + layer["attributes"]["first"].dump() + " " +
+                        layer["attributes"]["count"].dump();
+    for (const char* key : {"scale", "bias"}) {
+        if (!layer.contains(key)) continue;
+        for (const nlohmann::json& number : layer[key]) {
+            const float value = number.is_number() ? number.get<float>() : std::nanf("");
+            bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+        }
+    }
+    layer["checksum"] = checksumOf(std::as_bytes(std::span(bytes)));
+}
+
+/// Makes all checksums of a changed file fit again, as docs/format.md defines them.
+inline void repairChecksums(GlbFile& file) {
+    nlohmann::json& header = headerOf(file);
+    for (std::size_t view = 0; view < header["checksums"].size(); ++view)
+        header["checksums"][view] = checksumOf(file.view(view));
+    for (nlohmann::json& mesh : file.json["meshes"])
+        for (nlohmann::json& primitive : mesh["primitives"])
+            for (nlohmann::json& extension : primitive["extensions"])
+                for (auto& [semantic, checksum] : extension["checksums"].items())
+                    checksum = checksumOf(file.view(primitive["attributes"][semantic]));
+    for (nlohmann::json& layer : header["layers"])
+        repairLayer(layer, header["bands"]);
+}
+
+}  // namespace prt::test

@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "prt/transfer/compressed_transfer.h"
+#include "prt/transfer/transfer_field.h"
+
+namespace prt {
+namespace {
+
+TEST(Transfer, NamesOfTransportsAndEncodingsAreReadBack) {
+    for (const Transport transport :
+         {Transport::unshadowed, Transport::shadowed, Transport::interreflected})
+        EXPECT_EQ(parseTransport(transportName(transport)), transport);
+    for (const TransferEncoding encoding :
+         {TransferEncoding::float32, TransferEncoding::unorm16, TransferEncoding::unorm8})
+        EXPECT_EQ(parseEncoding(encodingName(encoding)), encoding);
+    EXPECT_EQ(transportName(Transport::interreflected), "interreflected");
+    EXPECT_EQ(encodingName(TransferEncoding::unorm16), "unorm16");
+    EXPECT_FALSE(parseTransport("Shadowed"));
+    EXPECT_FALSE(parseEncoding(""));
+}
+
+TEST(Transfer, CoefficientsAreStoredByReceiverThenChannelThenIndex) {
+    TransferField field;
+    field.bandCount = 2;
+    field.receiverCount = 2;
+    field.layers = {{Transport::shadowed, 1, {}}, {Transport::interreflected, 3, {}}};
+    for (int i = 0; i < 8; ++i)
+        field.layers[0].coefficients.push_back(static_cast<float>(i));
+    for (int i = 0; i < 24; ++i)
+        field.layers[1].coefficients.push_back(static_cast<float>(i));
+
+    EXPECT_EQ(field.findLayer(Transport::unshadowed), nullptr);
+    const TransferLayer* shadowed = field.findLayer(Transport::shadowed);
+    const TransferLayer* interreflected = field.findLayer(Transport::interreflected);
+    ASSERT_EQ(shadowed, &field.layers[0]);
+    ASSERT_EQ(interreflected, &field.layers[1]);
+    EXPECT_EQ(coefficientsPerReceiver(2, 3), 12u);
+
+    const std::span<const float> one = transferVector(field, *shadowed, 1, 0);
+    EXPECT_EQ(std::vector<float>(one.begin(), one.end()), (std::vector<float>{4, 5, 6, 7}));
+    const std::span<const float> blue = transferVector(field, *interreflected, 1, 2);
+    EXPECT_EQ(std::vector<float>(blue.begin(), blue.end()), (std::vector<float>{20, 21, 22, 23}));
+}
+
+template <class Number>
+CompressedTransfer storedTransfer(TransferEncoding encoding, const std::vector<Number>& numbers) {
+    CompressedTransfer transfer;
+    transfer.bandCount = 1;
+    transfer.receiverCount = numbers.size();
+    CompressedLayer layer;
+    layer.encoding = encoding;
+    layer.data.resize(numbers.size() * sizeof(Number));
+    std::memcpy(layer.data.data(), numbers.data(), layer.data.size());
+    if (encoding != TransferEncoding::float32) {
+        layer.scale = {0.5f};
+        layer.bias = {-0.25f};
+    }
+    transfer.layers = {layer};
+    return transfer;
+}
+
+TEST(CompressedTransfer, IntegersAreFractionsOfTheRange) {
+    const CompressedTransfer floats =
+        storedTransfer<float>(TransferEncoding::float32, {0.125f, -1e-30f});
+    EXPECT_EQ(expandLayer(floats, floats.layers[0]), (std::vector<float>{0.125f, -1e-30f}));
+
+    // q/65535 and q/255 of a range of 0.5 from −0.25 on.
+    const CompressedTransfer words =
+        storedTransfer<std::uint16_t>(TransferEncoding::unorm16, {0, 13107, 65535});
+    EXPECT_EQ(expandLayer(words, words.layers[0]), (std::vector<float>{-0.25f, -0.15f, 0.25f}));
+    const CompressedTransfer bytes =
+        storedTransfer<std::uint8_t>(TransferEncoding::unorm8, {0, 51, 255});
+    EXPECT_EQ(expandLayer(bytes, bytes.layers[0]), (std::vector<float>{-0.25f, -0.15f, 0.25f}));
+
+    EXPECT_EQ(bytes.findLayer(Transport::shadowed), &bytes.layers[0]);
+    EXPECT_EQ(bytes.findLayer(Transport::interreflected), nullptr);
+    EXPECT_EQ(bytesPerCoefficient(TransferEncoding::float32), 4u);
+    EXPECT_EQ(bytesPerCoefficient(TransferEncoding::unorm16), 2u);
+    EXPECT_EQ(bytesPerCoefficient(TransferEncoding::unorm8), 1u);
+}
+
+}  // namespace
+}  // namespace prt
