@@ -1,0 +1,156 @@
+#include "prt/relight/relight_kernel.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "prt/relight/relighter.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "prt/relight/relight_kernel.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace prt::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::CappedTag<float, kRelightBlockSize>;
+using Vector = hn::Vec<FloatTag>;
+
+/// Radiance of as many receivers as a vector has lanes.
+struct RgbVector {
+    Vector red, green, blue;
+};
+
+HWY_INLINE Vector loadLanes(const float* stored) {
+    return hn::Load(FloatTag(), stored);
+}
+
+template <class Integer>
+HWY_INLINE Vector loadLanes(const Integer* stored) {
+    const hn::Rebind<Integer, FloatTag> storedTag;
+    const hn::Rebind<std::int32_t, FloatTag> wideTag;
+    return hn::ConvertTo(FloatTag(), hn::PromoteTo(wideTag, hn::Load(storedTag, stored)));
+}
+
+/// Adds one coefficient's T_i L_i.
+template <int kChannelCount, class Stored>
+HWY_INLINE void addCoefficient(const Stored* row, const Vec3f& light, RgbVector& sum) {
+    const FloatTag d;
+    const Vector red = loadLanes(row);
+    Vector green = red;
+    Vector blue = red;
+    if constexpr (kChannelCount == 3) {
+        green = loadLanes(row + kRelightBlockSize);
+        blue = loadLanes(row + 2 * kRelightBlockSize);
+    }
+    sum.red = hn::MulAdd(red, hn::Set(d, light.x), sum.red);
+    sum.green = hn::MulAdd(green, hn::Set(d, light.y), sum.green);
+    sum.blue = hn::MulAdd(blue, hn::Set(d, light.z), sum.blue);
+}
+
+/// Relights as many receivers of a block as a vector has lanes.
+///
+/// Even and odd coefficients are summed apart: two short chains of dependent additions, not one
+/// long.
+template <int kChannelCount, class Stored>
+HWY_INLINE void relightLanes(const Stored* row, const FoldedLight& light, float* rgb) {
+    constexpr std::size_t kRowSize = kChannelCount * kRelightBlockSize;
+    const FloatTag d;
+    const Vector zero = hn::Zero(d);
+    RgbVector even = {hn::Set(d, light.constant.x), hn::Set(d, light.constant.y),
+                      hn::Set(d, light.constant.z)};
+    RgbVector odd = {zero, zero, zero};
+
+    const Vec3f* coefficient = light.coefficients.data();
+    const Vec3f* const end = coefficient + light.coefficientCount;
+    for (; end - coefficient >= 2; coefficient += 2, row += 2 * kRowSize) {
+        addCoefficient<kChannelCount>(row, coefficient[0], even);
+        addCoefficient<kChannelCount>(row + kRowSize, coefficient[1], odd);
+    }
+    if (coefficient != end) addCoefficient<kChannelCount>(row, *coefficient, even);
+
+    hn::StoreInterleaved3(hn::Add(even.red, odd.red), hn::Add(even.green, odd.green),
+                          hn::Add(even.blue, odd.blue), d, rgb);
+}
+
+/// Copies past the caches, except for the incomplete vectors at both ends.
+HWY_INLINE void streamOut(const float* from, std::size_t count, float* to) {
+    const FloatTag d;
+    const std::size_t vectorSize = hn::Lanes(d);
+    const std::size_t phase = reinterpret_cast<std::uintptr_t>(to) / sizeof(float) % vectorSize;
+    const std::size_t head = std::min(count, (vectorSize - phase) % vectorSize);
+    std::copy_n(from, head, to);
+    std::size_t i = head;
+    for (; i + vectorSize <= count; i += vectorSize)
+        hn::Stream(hn::LoadU(d, from + i), d, to + i);
+    std::copy_n(from + i, count - i, to + i);
+}
+
+/// Goes through the blocks once and in sequence: the machine's own prefetching then keeps up, and
+/// asking ahead only costs. Results are staged, so that those written past the caches fill whole
+/// cache lines wherever the caller's memory begins.
+template <int kChannelCount, class Stored>
+void relightStored(const Stored* block, std::size_t blockSize, const FoldedLight& light,
+                   std::size_t receiverCount, ResultStore store, float* radiance) {
+    constexpr std::size_t kStagedReceivers = 16 * kRelightBlockSize;
+    HWY_ALIGN float staged[3 * kStagedReceivers];
+    for (std::size_t begin = 0; begin < receiverCount; begin += kStagedReceivers) {
+        const std::size_t count = std::min(kStagedReceivers, receiverCount - begin);
+        for (std::size_t i = 0; i < count; i += kRelightBlockSize, block += blockSize) {
+            for (std::size_t lane = 0; lane < kRelightBlockSize; lane += hn::Lanes(FloatTag()))
+                relightLanes<kChannelCount>(block + lane, light, staged + 3 * (i + lane));
+        }
+        if (store == ResultStore::streaming)
+            streamOut(staged, 3 * count, radiance + 3 * begin);
+        else
+            std::copy_n(staged, 3 * count, radiance + 3 * begin);
+    }
+    hwy::FlushStream();
+}
+
+template <class Stored>
+void relightChannels(const TransferBlocks& blocks, const FoldedLight& light,
+                     std::size_t receiverCount, ResultStore store, float* radiance) {
+    const auto* first = reinterpret_cast<const Stored*>(blocks.data);
+    const std::size_t blockSize = blocks.coefficientCount * blocks.channelCount * kRelightBlockSize;
+    if (blocks.channelCount == 1)
+        relightStored<1>(first, blockSize, light, receiverCount, store, radiance);
+    else
+        relightStored<3>(first, blockSize, light, receiverCount, store, radiance);
+}
+
+void relight(const TransferBlocks& blocks, const FoldedLight& light, std::size_t receiverCount,
+             ResultStore store, float* radiance) {
+    switch (blocks.encoding) {
+        case TransferEncoding::float32:
+            return relightChannels<float>(blocks, light, receiverCount, store, radiance);
+        case TransferEncoding::unorm16:
+            return relightChannels<std::uint16_t>(blocks, light, receiverCount, store, radiance);
+        case TransferEncoding::unorm8:
+            return relightChannels<std::uint8_t>(blocks, light, receiverCount, store, radiance);
+    }
+}
+
+}  // namespace
+}  // namespace prt::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace prt {
+
+static_assert(sizeof(Vec3f) == 3 * sizeof(float));
+
+HWY_EXPORT(relight);
+
+void relightBlocks(const TransferBlocks& blocks, const FoldedLight& light,
+                   std::size_t receiverCount, ResultStore store, Vec3f* radiance) {
+    HWY_DYNAMIC_DISPATCH(relight)
+    (blocks, light, receiverCount, store, reinterpret_cast<float*>(radiance));
+}
+
+}  // namespace prt
+#endif  // HWY_ONCE
