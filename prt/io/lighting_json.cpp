@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "prt/base/assert.h"
+#include "prt/base/error.h"
+#include "prt/basis/sh_convention.h"
+#include "prt/io/environment_io.h"
+
+namespace prt {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void fail(const std::string& what, const std::string& name) {
+    throw Error(ErrorCode::malformed, what, name);
+}
+
+json parseObject(const std::string& text, const std::string& name) {
+    try {
+        json document = json::parse(text);
+        if (!document.is_object()) fail("is JSON, but not an object", name);
+        return document;
+    } catch (const json::parse_error& failure) {
+        fail("is not valid JSON at byte " + std::to_string(failure.byte), name);
+    } catch (const json::exception&) {
+        fail("is JSON with a number that is out of range", name);
+    }
+}
+
+int readBandCount(const json& document, const std::string& name) {
+    const auto bands = document.find("bands");
+    if (bands == document.end() || !bands->is_number_integer() || *bands < 1 ||
+        *bands > kMaxBandCount)
+        fail("has no whole number \"bands\" from 1 to " + std::to_string(kMaxBandCount), name);
+    return bands->get<int>();
+}
+
+ShConvention readConvention(const json& document, const std::string& name) {
+    const auto convention = document.find("convention");
+    if (convention == document.end() || !convention->is_string())
+        fail("has no text \"convention\"", name);
+    const auto& text = convention->get_ref<const std::string&>();
+    const std::optional<ShConvention> parsed = parseShConvention(text);
+    if (!parsed) fail("has the unknown convention \"" + text + "\"", name);
+    return *parsed;
+}
+
+Vec3d readCoefficient(const json& row, std::size_t index, const std::string& name) {
+    const auto isFiniteNumber = [](const json& value) {
+        return value.is_number() && std::isfinite(value.get<double>());
+    };
+    if (!row.is_array() || row.size() != 3 || !std::all_of(row.begin(), row.end(), isFiniteNumber))
+        fail("has a coefficient " + std::to_string(index) + " that is not [red, green, blue]",
+             name);
+    return {row[0].get<double>(), row[1].get<double>(), row[2].get<double>()};
+}
+
+/// Changes signs; the same signs lead there and back.
+void convertToOurs(ShConvention convention, Lighting& lighting) {
+    std::vector<double> channelValues(lighting.coefficients.size());
+    for (int channel = 0; channel < 3; ++channel) {
+        for (std::size_t i = 0; i < channelValues.size(); ++i)
+            channelValues[i] = lighting.coefficients[i][channel];
+        convertSh(convention, channelValues);
+        for (std::size_t i = 0; i < channelValues.size(); ++i)
+            lighting.coefficients[i][channel] = channelValues[i];
+    }
+}
+
+}  // namespace
+
+std::string lightingToJson(const Lighting& lighting) {
+    std::string text = "{\"bands\": " + std::to_string(lighting.bandCount) +
+                       ", \"convention\": \"" + std::string(shConventionName(ShConvention::cs)) +
+                       "\", \"coefficients\": [";
+    const char* separator = "\n  ";
+    for (const Vec3d& c : lighting.coefficients) {
+        PRT_ASSERT(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z),
+                   "JSON holds finite numbers only");
+        text += separator + json({c.x, c.y, c.z}).dump();
+        separator = ",\n  ";
+    }
+    return text + "\n]}\n";
+}
+
+Lighting lightingFromJson(const std::string& text, const std::string& name) {
+    const json document = parseObject(text, name);
+    Lighting lighting(readBandCount(document, name));
+    const ShConvention convention = readConvention(document, name);
+    const auto rows = document.find("coefficients");
+    if (rows == document.end() || !rows->is_array() || rows->size() != lighting.coefficients.size())
+        fail("does not have " + std::to_string(lighting.coefficients.size()) +
+                 " \"coefficients\", the square of its bands",
+             name);
+    for (std::size_t i = 0; i < lighting.coefficients.size(); ++i)
+        lighting.coefficients[i] = readCoefficient((*rows)[i], i, name);
+    convertToOurs(convention, lighting);
+    return lighting;
+}
+
+}  // namespace prt
