@@ -1,0 +1,19 @@
+#pragma once
+
+#include "prt/transfer/compressed_transfer.h"
+
+namespace prt {
+
+struct CompressOptions {
+    TransferEncoding encoding = TransferEncoding::unorm16;
+};
+
+/// Stores each coefficient in fewer bits, its range over all receivers mapped to the integers
+/// [Kautz04, storage].
+///
+/// The error of a coefficient is at most half a step: its range / 131070 for unorm16, / 510 for
+/// unorm8. float32 stores the numbers as they are.
+CompressedTransfer compressTransfer(const TransferField& field,
+                                    const CompressOptions& options = {});
+
+}  // namespace prt

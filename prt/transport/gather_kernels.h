@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "prt/math/isa.h"
+#include "prt/math/vector.h"
+#include "prt/trace/ray_stream.h"
+
+namespace prt {
+
+/// Vectors of all instruction sets divide this many lanes; arrays the kernels work on are padded to
+/// it.
+inline constexpr std::size_t kLaneMultiple = 16;
+
+constexpr std::size_t padToLanes(std::size_t count) {
+    return (count + kLaneMultiple - 1) / kLaneMultiple * kLaneMultiple;
+}
+
+/// The sampling pattern all receivers share, before each scrambles it for itself: Sobol points with
+/// their bits reversed, ready for owenScrambleReversed.
+struct SamplePattern {
+    explicit SamplePattern(std::size_t sampleCount);
+
+    std::vector<std::uint32_t> reversedX;
+    std::vector<std::uint32_t> reversedY;
+};
+
+/// How one receiver turns the pattern into directions.
+struct ReceiverSampling {
+    std::uint32_t seedX = 0;
+    std::uint32_t seedY = 0;
+    Vec3f normal{0.0f, 0.0f, 1.0f};
+};
+
+/// One element of the bounce matrix: how much of another receiver's transfer comes back from the
+/// hits near it.
+struct BounceEntry {
+    std::uint32_t receiver = 0;
+    Vec3f weight{0.0f, 0.0f,
+                 0.0f};  ///< barycentric weight × albedo at the hit / samples, summed over hits
+};
+
+/// Transfer as the bounces see it: [receiver][channel][coefficient], each receiver padded to
+/// kLaneMultiple.
+struct BounceTransfer {
+    const float* values = nullptr;  ///< aligned to 64 bytes
+    std::size_t coefficientCount = 0;
+
+    std::size_t receiverStride() const { return padToLanes(3 * coefficientCount); }
+};
+
+/// The inner loops of the gather, for one instruction set.
+struct GatherKernels {
+    /// Fills the stream's directions: Owen-scrambled points, cosine-distributed about the normal.
+    void (*sampleDirections)(const SamplePattern& pattern, const ReceiverSampling& sampling,
+                             RayStream& rays);
+
+    /// Sums y_i over the directions that are not blocked (tFar > 0).
+    /// @param sums  n², written
+    void (*sumVisible)(const RayStream& rays, int bandCount, std::span<float> sums);
+
+    /// One row of the bounce matrix times the transfer of all receivers.
+    /// @param result  receiverStride() numbers, aligned to 64 bytes, written
+    void (*multiplyRow)(std::span<const BounceEntry> row, const BounceTransfer& transfer,
+                        float* result);
+};
+
+/// @param isa  at most detectIsa()
+GatherKernels selectGatherKernels(Isa isa);
+
+}  // namespace prt

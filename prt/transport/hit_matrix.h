@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "prt/transport/gather_kernels.h"
+
+namespace prt {
+
+/// Some rows of the bounce matrix.
+struct HitSlab {
+    std::vector<std::uint32_t> receivers;  ///< whose rows these are
+    std::vector<std::uint32_t> rowEnds;    ///< one a row: the end of its entries
+    std::vector<BounceEntry> entries;
+
+    std::span<const BounceEntry> row(std::size_t index) const {
+        const std::size_t begin = index == 0 ? 0 : rowEnds[index - 1];
+        return std::span(entries).subspan(begin, rowEnds[index] - begin);
+    }
+};
+
+/// The sparse matrix of a bounce, receivers × receivers: slabs of rows in memory, and on disk when
+/// they are more than the memory allowed.
+class HitMatrix {
+  public:
+    /// @param memoryBytes    for entries; slabs beyond it go to a file without a name in
+    /// scratchFolder
+    /// @param scratchFolder  empty: the system's folder for temporary files
+    HitMatrix(std::size_t memoryBytes, std::filesystem::path scratchFolder);
+    ~HitMatrix();
+    HitMatrix(const HitMatrix&) = delete;
+    HitMatrix& operator=(const HitMatrix&) = delete;
+
+    /// Adds rows; may be called from many threads. @throws Error writeFailed
+    void addSlab(HitSlab slab);
+
+    std::size_t slabCount() const { return slabs_.size(); }
+    std::size_t rowCount() const { return rowCount_; }
+    std::size_t entryBytes() const { return entryBytes_; }
+
+    /// Calls `visit` with one slab; may be called from many threads once all are added. @throws
+    /// Error unreadable
+    void visitSlab(std::size_t index, const std::function<void(const HitSlab&)>& visit) const;
+
+  private:
+    class SpillFile;
+    struct StoredSlab {
+        HitSlab slab;  // its entries are empty while they are on disk
+        std::uint64_t fileOffset = 0;
+        bool onDisk = false;
+    };
+
+    std::mutex adding_;
+    std::size_t memoryBytes_;
+    std::filesystem::path scratchFolder_;
+    std::size_t rowCount_ = 0;
+    std::size_t entryBytes_ = 0;
+    std::vector<StoredSlab> slabs_;
+    std::unique_ptr<SpillFile> spill_;
+};
+
+}  // namespace prt

@@ -1,0 +1,139 @@
+#include "prt/compress/compress_transfer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "prt/base/random.h"
+
+namespace prt {
+namespace {
+
+// Expanding rounds to a float once, and a range is a rounded difference: each at most this share of
+// the largest number.
+constexpr double kRounding = 1.5 * std::numeric_limits<float>::epsilon();
+
+constexpr std::size_t kReceiverCount = 501;
+constexpr int kBandCount = 5;
+
+/// Random transfer whose columns have very different ranges, as bands have.
+TransferField randomField() {
+    TransferField field;
+    field.bandCount = kBandCount;
+    field.receiverCount = kReceiverCount;
+    field.receiverOfVertex = {2, 0, 500};
+    RandomStream random(1, 2);
+    for (const int channelCount : {1, 3}) {
+        TransferLayer layer;
+        layer.transport = channelCount == 1 ? Transport::shadowed : Transport::interreflected;
+        layer.channelCount = channelCount;
+        const std::size_t rowLength = coefficientsPerReceiver(kBandCount, channelCount);
+        for (std::size_t i = 0; i < kReceiverCount * rowLength; ++i) {
+            const float range = std::exp2(-static_cast<float>(i % rowLength));
+            layer.coefficients.push_back(range * (random.nextUnitFloat() - 0.3f));
+        }
+        field.layers.push_back(layer);
+    }
+    return field;
+}
+
+struct Column {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+Column columnOf(const TransferLayer& layer, std::size_t rowLength, std::size_t column) {
+    Column range{layer.coefficients[column], layer.coefficients[column]};
+    for (std::size_t i = column; i < layer.coefficients.size(); i += rowLength) {
+        range.low = std::min<double>(range.low, layer.coefficients[i]);
+        range.high = std::max<double>(range.high, layer.coefficients[i]);
+    }
+    return range;
+}
+
+// T-21: the error is at most the coefficient's own range / 510 for 8 bits, / 131070 for 16.
+void expectErrorsWithinHalfAStep(TransferEncoding encoding, double halfStepsPerRange) {
+    const TransferField field = randomField();
+    const CompressedTransfer compressed = compressTransfer(field, {encoding});
+    ASSERT_EQ(compressed.layers.size(), field.layers.size());
+    for (std::size_t l = 0; l < field.layers.size(); ++l) {
+        const TransferLayer& layer = field.layers[l];
+        const std::size_t rowLength = coefficientsPerReceiver(kBandCount, layer.channelCount);
+        const std::vector<float> expanded = expandLayer(compressed, compressed.layers[l]);
+        ASSERT_EQ(expanded.size(), layer.coefficients.size());
+        for (std::size_t column = 0; column < rowLength; ++column) {
+            const Column range = columnOf(layer, rowLength, column);
+            const double bound = (range.high - range.low) / halfStepsPerRange +
+                                 kRounding * std::max(std::abs(range.low), std::abs(range.high));
+            for (std::size_t i = column; i < expanded.size(); i += rowLength)
+                ASSERT_NEAR(expanded[i], layer.coefficients[i], bound) << "coefficient " << column;
+        }
+    }
+}
+
+TEST(CompressTransfer, WordsAreWithinHalfAStepOfTheField) {
+    expectErrorsWithinHalfAStep(TransferEncoding::unorm16, 131070.0);
+}
+
+TEST(CompressTransfer, BytesAreWithinHalfAStepOfTheField) {
+    expectErrorsWithinHalfAStep(TransferEncoding::unorm8, 510.0);
+}
+
+TEST(CompressTransfer, FloatsStayAsTheyAre) {
+    const TransferField field = randomField();
+    const CompressedTransfer compressed = compressTransfer(field, {TransferEncoding::float32});
+    for (std::size_t l = 0; l < field.layers.size(); ++l) {
+        EXPECT_EQ(expandLayer(compressed, compressed.layers[l]), field.layers[l].coefficients);
+        EXPECT_TRUE(compressed.layers[l].scale.empty() && compressed.layers[l].bias.empty());
+    }
+}
+
+TEST(CompressTransfer, AllButTheNumbersIsKept) {
+    const TransferField field = randomField();
+    const CompressedTransfer compressed = compressTransfer(field);
+    EXPECT_EQ(compressed.bandCount, field.bandCount);
+    EXPECT_EQ(compressed.receiverCount, field.receiverCount);
+    EXPECT_EQ(compressed.receiverOfVertex, field.receiverOfVertex);
+    for (std::size_t l = 0; l < field.layers.size(); ++l) {
+        EXPECT_EQ(compressed.layers[l].transport, field.layers[l].transport);
+        EXPECT_EQ(compressed.layers[l].channelCount, field.layers[l].channelCount);
+        EXPECT_EQ(compressed.layers[l].encoding, TransferEncoding::unorm16);
+        EXPECT_EQ(compressed.layers[l].data.size(), field.layers[l].coefficients.size() * 2);
+    }
+}
+
+TEST(CompressTransfer, AConstantCoefficientAndTheEndsOfARangeAreExact) {
+    for (const TransferEncoding encoding : {TransferEncoding::unorm16, TransferEncoding::unorm8}) {
+        TransferField field = randomField();
+        TransferLayer& layer = field.layers[0];
+        const std::size_t rowLength = coefficientsPerReceiver(kBandCount, 1);
+        for (std::size_t row = 0; row < kReceiverCount; ++row) {
+            layer.coefficients[row * rowLength] = 0.28209479f;
+            layer.coefficients[row * rowLength + 1] = row % 2 == 0 ? 0.0f : 0.1f;
+        }
+        const CompressedTransfer compressed = compressTransfer(field, {encoding});
+        const std::vector<float> expanded = expandLayer(compressed, compressed.layers[0]);
+        for (std::size_t row = 0; row < kReceiverCount; ++row) {
+            ASSERT_EQ(expanded[row * rowLength], 0.28209479f);
+            ASSERT_EQ(expanded[row * rowLength + 1], row % 2 == 0 ? 0.0f : 0.1f);
+        }
+        EXPECT_EQ(compressed.layers[0].scale[0], 0.0f);
+    }
+}
+
+TEST(CompressTransfer, AFieldWithoutReceiversIsEmpty) {
+    TransferField field;
+    field.bandCount = 3;
+    field.layers = {{Transport::unshadowed, 1, {}}};
+    for (const TransferEncoding encoding :
+         {TransferEncoding::float32, TransferEncoding::unorm16, TransferEncoding::unorm8}) {
+        const CompressedTransfer compressed = compressTransfer(field, {encoding});
+        EXPECT_TRUE(compressed.layers[0].data.empty());
+        EXPECT_TRUE(expandLayer(compressed, compressed.layers[0]).empty());
+    }
+}
+
+}  // namespace
+}  // namespace prt
