@@ -1,0 +1,142 @@
+#include "apps/prt/coefficient_format.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "prt/basis/sh.h"
+#include "prt/io/environment_io.h"
+
+namespace prt::cli {
+namespace {
+
+Lighting convertLighting(Lighting lighting, ShConvention convention) {
+    std::vector<double> channelValues(lighting.coefficients.size());
+    for (int channel = 0; channel < 3; ++channel) {
+        for (std::size_t i = 0; i < channelValues.size(); ++i)
+            channelValues[i] = lighting.coefficients[i][channel];
+        convertSh(convention, channelValues);
+        for (std::size_t i = 0; i < channelValues.size(); ++i)
+            lighting.coefficients[i][channel] = channelValues[i];
+    }
+    return lighting;
+}
+
+std::string_view describeConvention(ShConvention convention) {
+    switch (convention) {
+        case ShConvention::cs:
+            return "cs: Condon-Shortley phase, right-handed axes";
+        case ShConvention::rh:
+            return "rh: no phase, left-handed axes with +z ahead [Ramamoorthi and Hanrahan 2001]";
+        case ShConvention::d3dx:
+            return "d3dx: Condon-Shortley phase, left-handed axes with +z ahead (D3DX, "
+                   "DirectXMath)";
+        case ShConvention::three:
+            return "three: no phase, right-handed axes (three.js SphericalHarmonics3)";
+    }
+    return {};
+}
+
+/// Six decimals, and never "-0.000000".
+double roundForTable(double value) {
+    constexpr double kMillion = 1e6;
+    if (std::abs(value) > 1e9) return value;
+    return std::round(value * kMillion) / kMillion + 0.0;
+}
+
+std::string formatTable(const Lighting& lighting) {
+    std::size_t width = 12;
+    for (const Vec3d& value : lighting.coefficients)
+        for (int channel = 0; channel < 3; ++channel)
+            width = std::max(width, fmt::formatted_size("{:.6f}", value[channel]) + 2);
+
+    std::string text =
+        fmt::format("index   l   m{:>{}}{:>{}}{:>{}}\n", "R", width, "G", width, "B", width);
+    for (std::size_t i = 0; i < lighting.coefficients.size(); ++i) {
+        const int index = static_cast<int>(i);
+        const int l = shDegree(index);
+        text += fmt::format("{:>5} {:>3} {:>3}", index, l, index - shIndex(l, 0));
+        for (int channel = 0; channel < 3; ++channel)
+            text +=
+                fmt::format("{:>{}.6f}", roundForTable(lighting.coefficients[i][channel]), width);
+        text += "\n";
+    }
+    return text;
+}
+
+std::string formatJson(const Lighting& lighting, ShConvention convention) {
+    std::string text = lightingToJson(lighting);
+    if (convention != ShConvention::cs) {
+        auto json = nlohmann::ordered_json::parse(text);
+        json["convention"] = shConventionName(convention);
+        text = json.dump();
+    }
+    return text.ends_with('\n') ? text : text + "\n";
+}
+
+/// How a language spells an array of vectors.
+struct ArraySyntax {
+    std::string head;
+    std::string element;  // of three numbers
+    std::string tail;
+};
+
+ArraySyntax arraySyntax(CoefficientFormat format, std::size_t count) {
+    if (format == CoefficientFormat::glsl)
+        return {fmt::format("const vec3 kLighting[{0}] = vec3[{0}](\n", count),
+                "    vec3({:#}, {:#}, {:#})", ");\n"};
+    if (format == CoefficientFormat::hlsl)
+        return {fmt::format("static const float3 kLighting[{}] = {{\n", count),
+                "    float3({:#}, {:#}, {:#})", "};\n"};
+    return {fmt::format("static const float kLighting[{}][3] = {{\n", count),
+            "    {{{:#}f, {:#}f, {:#}f}}", "};\n"};
+}
+
+std::string formatArray(const Lighting& lighting, CoefficientFormat format,
+                        ShConvention convention) {
+    const std::size_t count = lighting.coefficients.size();
+    const ArraySyntax syntax = arraySyntax(format, count);
+    std::string text = fmt::format(
+        "// Radiance in {} bands of real orthonormal spherical harmonics; degree l, order m stands "
+        "at l(l+1)+m.\n"
+        "// Convention {}; polar axis z.\n{}",
+        lighting.bandCount, describeConvention(convention), syntax.head);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3f value(lighting.coefficients[i]);
+        text += fmt::format(fmt::runtime(syntax.element), value.x, value.y, value.z);
+        text += i + 1 < count ? ",\n" : "\n";
+    }
+    return text + syntax.tail;
+}
+
+}  // namespace
+
+std::optional<CoefficientFormat> parseCoefficientFormat(std::string_view name) {
+    if (name == "table") return CoefficientFormat::table;
+    if (name == "json") return CoefficientFormat::json;
+    if (name == "glsl") return CoefficientFormat::glsl;
+    if (name == "hlsl") return CoefficientFormat::hlsl;
+    if (name == "c") return CoefficientFormat::c;
+    return std::nullopt;
+}
+
+std::string formatCoefficients(const Lighting& lighting, CoefficientFormat format,
+                               ShConvention convention) {
+    const Lighting converted = convertLighting(lighting, convention);
+    switch (format) {
+        case CoefficientFormat::table:
+            return formatTable(converted);
+        case CoefficientFormat::json:
+            return formatJson(converted, convention);
+        case CoefficientFormat::glsl:
+        case CoefficientFormat::hlsl:
+        case CoefficientFormat::c:
+            return formatArray(converted, format, convention);
+    }
+    return {};
+}
+
+}  // namespace prt::cli

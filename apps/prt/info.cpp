@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "apps/prt/commands.h"
+#include "apps/prt/text.h"
+#include "prt/asset/asset.h"
+#include "prt/basis/sh.h"
+
+namespace prt::cli {
+namespace {
+
+struct InfoArguments {
+    std::string asset;
+    bool json = false;
+};
+
+std::size_t bytesPerVertex(const CompressedTransfer& transfer, const CompressedLayer& layer) {
+    return layer.data.size() / std::max<std::size_t>(transfer.receiverCount, 1);
+}
+
+void printRow(std::string_view name, const std::string& value) {
+    fmt::print("{:<12} {}\n", name, value);
+}
+
+void printScene(const Scene& scene) {
+    printRow("scene", fmt::format("{}, {}, {}", formatCount(scene.meshes.size(), "mesh"),
+                                  formatCount(scene.vertexCount(), "vertex"),
+                                  formatCount(scene.triangleCount(), "triangle")));
+    printRow("", fmt::format("{}, {}, {}", formatCount(scene.materials.size(), "material"),
+                             formatCount(scene.images.size(), "image"),
+                             formatCount(scene.cameras.size(), "camera")));
+    for (const Camera& camera : scene.cameras)
+        printRow("camera", camera.name);
+}
+
+void printProvenance(const Provenance& provenance) {
+    printRow("made by", provenance.generator);
+    printRow("with", provenance.command);
+    printRow("samples",
+             fmt::format("{} a vertex",
+                         formatCount(static_cast<std::uint64_t>(provenance.sampleCount), "ray")));
+    printRow("bounces", std::to_string(provenance.bounceCount));
+    printRow("seed", std::to_string(provenance.seed));
+    printRow("isa", provenance.isa);
+}
+
+void printTransfer(const CompressedTransfer& transfer) {
+    printRow(
+        "bands",
+        fmt::format("{} ({} a channel)", transfer.bandCount,
+                    formatCount(static_cast<std::uint64_t>(shCoefficientCount(transfer.bandCount)),
+                                "coefficient")));
+    fmt::print("\n{:<16} {:>8} {:>10} {:>14} {:>10}\n", "layer", "channels", "encoding",
+               "bytes/vertex", "bytes");
+    for (const CompressedLayer& layer : transfer.layers)
+        fmt::print("{:<16} {:>8} {:>10} {:>14} {:>10}\n", transportName(layer.transport),
+                   layer.channelCount, encodingName(layer.encoding),
+                   bytesPerVertex(transfer, layer), formatBytes(layer.data.size()));
+}
+
+void printTable(const std::string& path, const Asset& asset) {
+    printRow("asset", fmt::format("{}, {}", path, formatBytes(std::filesystem::file_size(path))));
+    printScene(asset.scene);
+    printProvenance(asset.provenance);
+    printTransfer(asset.transfer);
+}
+
+nlohmann::ordered_json describeLayers(const CompressedTransfer& transfer) {
+    auto layers = nlohmann::ordered_json::array();
+    for (const CompressedLayer& layer : transfer.layers)
+        layers.push_back({{"transport", transportName(layer.transport)},
+                          {"channels", layer.channelCount},
+                          {"encoding", encodingName(layer.encoding)},
+                          {"bytes_per_vertex", bytesPerVertex(transfer, layer)},
+                          {"bytes", layer.data.size()}});
+    return layers;
+}
+
+void printJson(const std::string& path, const Asset& asset) {
+    auto cameras = nlohmann::ordered_json::array();
+    for (const Camera& camera : asset.scene.cameras)
+        cameras.push_back(camera.name);
+    const Provenance& provenance = asset.provenance;
+    const nlohmann::ordered_json json = {
+        {"asset", path},
+        {"bytes", std::filesystem::file_size(path)},
+        {"meshes", asset.scene.meshes.size()},
+        {"vertices", asset.scene.vertexCount()},
+        {"triangles", asset.scene.triangleCount()},
+        {"materials", asset.scene.materials.size()},
+        {"images", asset.scene.images.size()},
+        {"cameras", cameras},
+        {"bands", asset.transfer.bandCount},
+        {"layers", describeLayers(asset.transfer)},
+        {"provenance",
+         {{"generator", provenance.generator},
+          {"command", provenance.command},
+          {"samples", provenance.sampleCount},
+          {"bounces", provenance.bounceCount},
+          {"seed", provenance.seed},
+          {"isa", provenance.isa}}},
+    };
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+}  // namespace
+
+void addInfoCommand(CLI::App& app) {
+    const auto arguments = std::make_shared<InfoArguments>();
+    CLI::App* command = app.add_subcommand("info", "Show what an asset holds and how it was baked");
+    command->footer("Example: prt info statue.prt.glb --json");
+    command->add_option("ASSET", arguments->asset, "what prt bake wrote")->required();
+    command->add_flag("--json", arguments->json, "the same as JSON");
+    command->callback([arguments] {
+        const Asset asset = readAsset(arguments->asset);
+        arguments->json ? printJson(arguments->asset, asset) : printTable(arguments->asset, asset);
+    });
+}
+
+}  // namespace prt::cli

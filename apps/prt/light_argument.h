@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "prt/light/environment.h"
+#include "prt/light/lighting.h"
+
+namespace prt::cli {
+
+/// The forms of LIGHT, for --help.
+inline constexpr const char* kLightHelp = R"(LIGHT is one of
+  FILE.exr .hdr .png .jpg  an environment: lat-long, angular map, cross or strip, told by its shape;
+                           or a folder with six faces px nx py ny pz nz
+  uniform:r,g,b            the same radiance from everywhere (uniform:v for grey)
+  sun:azimuth,elevation,angle
+                           a disc of unit irradiance on a surface facing it, in degrees: azimuth
+                           from +x towards +z, elevation above the horizon, angle its diameter
+  FILE.json                coefficients as `prt light --format json` writes them)";
+
+/// The layouts of images, "lat-long|angular|…".
+std::string sphereMapNames();
+
+/// What a LIGHT argument stands for.
+struct LightSource {
+    Lighting lighting;
+    std::optional<Environment> environment;  ///< where the light is an image
+    SanitiseReport mended;                   ///< what had to be mended in that image
+};
+
+/// Reads a LIGHT argument.
+///
+/// @param bandCount  of the lighting; coefficients from a file may have fewer
+/// @param map        forces the layout of an image
+/// @throws Error     as the readers of files; invalidOption for a malformed argument
+LightSource loadLight(const std::string& argument, int bandCount,
+                      std::optional<SphereMap> map = {});
+
+/// The sentence that says which texels were mended; nothing where all were good.
+std::optional<std::string> describeMending(const SanitiseReport& mended);
+
+/// The light as an image to be seen behind a scene: the environment, or what the coefficients stand
+/// for.
+Environment makeBackground(const LightSource& light, const Mat3d& rotation);
+
+}  // namespace prt::cli
