@@ -1,0 +1,130 @@
+// The spherical basis and what is built on it, on one core. `seconds_per_direction` is what the
+// tables of peers call ns per direction.
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <vector>
+
+#include "prt/base/random.h"
+#include "prt/basis/sh.h"
+#include "prt/basis/sh_rotation.h"
+#include "prt/light/analytic_lights.h"
+#include "prt/light/environment.h"
+#include "prt/math/quadrature.h"
+
+namespace prt {
+namespace {
+
+constexpr std::size_t kDirectionCount = 256;
+
+/// Directions as three arrays, and room for the values of one batch.
+struct Directions {
+    std::vector<float> x, y, z;
+
+    Directions() {
+        const auto nodes = sphereQuadrature(21);
+        for (std::size_t i = 0; i < kDirectionCount; ++i) {
+            const Vec3f direction(nodes[i % nodes.size()].direction);
+            x.push_back(direction.x);
+            y.push_back(direction.y);
+            z.push_back(direction.z);
+        }
+    }
+};
+
+void countDirections(benchmark::State& state) {
+    state.counters["seconds_per_direction"] =
+        benchmark::Counter(static_cast<double>(state.iterations()) * kDirectionCount,
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void evaluateBatches(benchmark::State& state) {
+    constexpr std::size_t kMaxValueCount = shCoefficientCount(kMaxBandCount) * kShBatchSize;
+    const int bandCount = static_cast<int>(state.range(0));
+    const Directions directions;
+    alignas(64) std::array<float, kMaxValueCount> room;
+    const std::span<float> values = std::span(room).first(
+        static_cast<std::size_t>(shCoefficientCount(bandCount)) * kShBatchSize);
+    using Batch = std::span<const float, kShBatchSize>;
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < kDirectionCount; i += kShBatchSize) {
+            evaluateShBatch(Batch(&directions.x[i], kShBatchSize),
+                            Batch(&directions.y[i], kShBatchSize),
+                            Batch(&directions.z[i], kShBatchSize), bandCount, values);
+            benchmark::ClobberMemory();
+        }
+    }
+    countDirections(state);
+}
+BENCHMARK(evaluateBatches)->Name("sh/batch_of_16")->Arg(3)->Arg(5)->Arg(10);
+
+void evaluateSingly(benchmark::State& state) {
+    const int bandCount = static_cast<int>(state.range(0));
+    const Directions directions;
+    std::vector<float> values(static_cast<std::size_t>(shCoefficientCount(bandCount)));
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < kDirectionCount; ++i) {
+            evaluateSh(Vec3f(directions.x[i], directions.y[i], directions.z[i]), bandCount, values);
+            benchmark::ClobberMemory();
+        }
+    }
+    countDirections(state);
+}
+BENCHMARK(evaluateSingly)->Name("sh/one_direction")->Arg(3)->Arg(5)->Arg(10)->Arg(32);
+
+void rotateCoefficients(benchmark::State& state) {
+    const int bandCount = static_cast<int>(state.range(0));
+    const Mat3d rotation = rotationAbout(Vec3d(2.0, -1.0, 2.0) / 3.0, 0.7);
+    std::vector<double> source(static_cast<std::size_t>(shCoefficientCount(bandCount)), 1.0);
+    std::vector<double> rotated(source.size());
+    for (auto _ : state) {
+        ShRotation(rotation, bandCount).apply(source, rotated);
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(rotateCoefficients)->Name("sh/rotation_with_setup")->Arg(3)->Arg(5)->Arg(6)->Arg(10);
+
+Environment makeEnvironment(SphereMap map, int width, int height) {
+    RandomStream random(1, 0);
+    Environment environment{map, Image(width, height)};
+    for (Vec3f& texel : environment.radiance.pixels)
+        texel = Vec3f(random.nextUnitFloat());
+    return environment;
+}
+
+void projectEnvironment(benchmark::State& state, SphereMap map, int width, int height) {
+    const Environment environment = makeEnvironment(map, width, height);
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(projectLighting(environment, static_cast<int>(state.range(0))));
+    }
+    state.SetItemsProcessed(state.iterations() * width * height);
+}
+BENCHMARK_CAPTURE(projectEnvironment, lat_long_1024x512, SphereMap::latLong, 1024, 512)
+    ->Arg(3)
+    ->Arg(5)
+    ->Arg(10)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(projectEnvironment, angular_map_1000x1000, SphereMap::angularMap, 1000, 1000)
+    ->Arg(5)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(projectEnvironment, vertical_cross_768x1024, SphereMap::verticalCross, 768, 1024)
+    ->Arg(5)
+    ->Unit(benchmark::kMillisecond);
+
+void deringSun(benchmark::State& state) {
+    const Lighting sun =
+        sunLighting(Vec3d(2.0, -1.0, 2.0) / 3.0, 0.0, static_cast<int>(state.range(0)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(deringingFactors(sun));
+}
+BENCHMARK(deringSun)
+    ->Name("lighting/dering_sun")
+    ->Arg(3)
+    ->Arg(5)
+    ->Arg(10)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace prt
+
+BENCHMARK_MAIN();

@@ -1,0 +1,163 @@
+// Relighting of a million receivers by one thread, against what the same thread can read from
+// memory in the same run.
+//
+// Bytes counted: the transfer that is read, once, and the 12 bytes of RGB written for each
+// receiver. of_read_bandwidth is their rate over that of summing 256 MB, measured just before and
+// after; it can exceed 1 where transfer stays in the last-level cache from one frame to the next.
+#include <benchmark/benchmark.h>
+#include <hwy/aligned_allocator.h>
+
+#include <algorithm>
+#include <ctime>
+#include <vector>
+
+#include "prt/base/assert.h"
+#include "prt/relight/relighter.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "benchmarks/relight_benchmark.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace prt::HWY_NAMESPACE {
+namespace {
+
+/// Adds up numbers with the widest vectors, in four chains. @param count  a multiple of 256
+float sumFloats(const float* values, std::size_t count) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::ScalableTag<float> d;
+    const std::size_t step = hn::Lanes(d);
+    auto a = hn::Zero(d);
+    auto b = a;
+    auto c = a;
+    auto e = a;
+    for (std::size_t i = 0; i < count; i += 4 * step) {
+        a = hn::Add(a, hn::Load(d, values + i));
+        b = hn::Add(b, hn::Load(d, values + i + step));
+        c = hn::Add(c, hn::Load(d, values + i + 2 * step));
+        e = hn::Add(e, hn::Load(d, values + i + 3 * step));
+    }
+    return hn::GetLane(hn::SumOfLanes(d, hn::Add(hn::Add(a, b), hn::Add(c, e))));
+}
+
+}  // namespace
+}  // namespace prt::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace prt {
+
+HWY_EXPORT(sumFloats);
+
+namespace {
+
+constexpr std::size_t kReceiverCount = 1'000'000;
+constexpr std::size_t kReadFloats = std::size_t{64} << 20;  // 256 MB
+
+double threadSeconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+const float* readBuffer() {
+    static const auto buffer = [] {
+        auto floats = hwy::AllocateAligned<float>(kReadFloats);
+        PRT_ASSERT(floats, "256 MB are there");
+        std::fill_n(floats.get(), kReadFloats, 1.0f);
+        return floats;
+    }();
+    return buffer.get();
+}
+
+void sumReadBuffer() {
+    benchmark::DoNotOptimize(HWY_DYNAMIC_DISPATCH(sumFloats)(readBuffer(), kReadFloats));
+}
+
+void timeReads(std::vector<double>& seconds) {
+    constexpr int kRepetitions = 5;
+    for (int i = 0; i < kRepetitions; ++i) {
+        const double start = threadSeconds();
+        sumReadBuffer();
+        seconds.push_back(threadSeconds() - start);
+    }
+}
+
+void readMemory(benchmark::State& state) {
+    for (auto _ : state)
+        sumReadBuffer();
+    state.SetBytesProcessed(state.iterations() *
+                            static_cast<std::int64_t>(kReadFloats * sizeof(float)));
+}
+
+CompressedTransfer makeTransfer(TransferEncoding encoding, int bandCount, int channelCount) {
+    CompressedTransfer transfer;
+    transfer.bandCount = bandCount;
+    transfer.receiverCount = kReceiverCount;
+    CompressedLayer layer;
+    layer.channelCount = channelCount;
+    layer.encoding = encoding;
+    const std::size_t rowCount = coefficientsPerReceiver(bandCount, channelCount);
+    if (encoding != TransferEncoding::float32) {
+        layer.scale.assign(rowCount, 1.5f);
+        layer.bias.assign(rowCount, -0.25f);
+    }
+    // A number of moderate size in every encoding.
+    constexpr std::byte kPattern{0x3c};
+    layer.data.assign(kReceiverCount * rowCount * bytesPerCoefficient(encoding), kPattern);
+    transfer.layers.push_back(std::move(layer));
+    return transfer;
+}
+
+void relight(benchmark::State& state, TransferEncoding encoding) {
+    const auto bandCount = static_cast<int>(state.range(0));
+    const auto channelCount = static_cast<int>(state.range(1));
+    const Relighter relighter(makeTransfer(encoding, bandCount, channelCount), Transport::shadowed);
+    Lighting lighting(bandCount);
+    std::fill(lighting.coefficients.begin(), lighting.coefficients.end(), Vec3d(1.0, 0.5, 0.25));
+    std::vector<Vec3f> radiance(kReceiverCount);
+
+    std::vector<double> readSeconds;
+    std::vector<double> relightSeconds;
+    timeReads(readSeconds);
+    for (auto _ : state) {
+        const double start = threadSeconds();
+        relighter.relight(lighting, radiance);
+        benchmark::ClobberMemory();
+        relightSeconds.push_back(threadSeconds() - start);
+    }
+    timeReads(readSeconds);
+
+    const std::size_t bytes = relighter.transferBytes() + kReceiverCount * sizeof(Vec3f);
+    const double readRate = kReadFloats * sizeof(float) / median(readSeconds);
+    const double relightRate = static_cast<double>(bytes) / median(relightSeconds);
+    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(bytes));
+    state.counters["median_ms"] = 1e3 * median(relightSeconds);
+    state.counters["read_GB/s"] = 1e-9 * readRate;
+    state.counters["of_read_bandwidth"] = relightRate / readRate;
+}
+
+void chooseSizes(benchmark::internal::Benchmark* relighting) {
+    relighting->ArgNames({"bands", "channels"})
+        ->ArgsProduct({{3, 5, 10}, {1}})
+        ->Args({5, 3})
+        ->Unit(benchmark::kMillisecond);
+}
+
+BENCHMARK(readMemory)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(relight, float32, TransferEncoding::float32)->Apply(chooseSizes);
+BENCHMARK_CAPTURE(relight, unorm16, TransferEncoding::unorm16)->Apply(chooseSizes);
+BENCHMARK_CAPTURE(relight, unorm8, TransferEncoding::unorm8)->Apply(chooseSizes);
+
+}  // namespace
+}  // namespace prt
+
+BENCHMARK_MAIN();
+#endif  // HWY_ONCE

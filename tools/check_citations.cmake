@@ -1,0 +1,57 @@
+# Holds the citations in code to the bibliography, both ways:
+#   cmake -DROOT=<repository> -P tools/check_citations.cmake
+# A citation is a key in brackets: [Sloan02], [Ramamoorthi01, eq. 3], [Sloan02; Kautz04].
+cmake_minimum_required(VERSION 3.25)
+
+set(faults "")
+string(ASCII 1 open)
+string(ASCII 2 close)
+
+# Read the keys of the bibliography.
+file(STRINGS "${ROOT}/docs/references.bib" entries REGEX "^@[a-z]+{")
+foreach(entry IN LISTS entries)
+    string(REGEX REPLACE "^@[a-z]+{([^,]*),.*" "\\1" key "${entry}")
+    if(key IN_LIST keys)
+        list(APPEND faults "docs/references.bib has two entries ${key}")
+    endif()
+    list(APPEND keys "${key}")
+endforeach()
+
+# Find the bracketed keys of every file. CMake's lists treat brackets and semicolons specially, so these go first.
+foreach(folder prt apps examples tests benchmarks)
+    list(APPEND patterns "${ROOT}/${folder}/*.h" "${ROOT}/${folder}/*.cpp")
+endforeach()
+file(GLOB_RECURSE sources RELATIVE "${ROOT}" ${patterns} "${ROOT}/docs/*.md")
+foreach(source IN LISTS sources)
+    file(READ "${ROOT}/${source}" text)
+    string(REPLACE ";" "," text "${text}")
+    string(REPLACE "[" "${open}" text "${text}")
+    string(REPLACE "]" "${close}" text "${text}")
+    string(REGEX MATCHALL "${open}[^${open}${close}]*${close}" brackets "${text}")
+    foreach(bracket IN LISTS brackets)
+        string(REGEX REPLACE "[${open}${close}]" "" bracket "${bracket}")
+        string(REPLACE "," ";" parts "${bracket}")
+        foreach(part IN LISTS parts)
+            if(NOT part MATCHES "^[\n/ ]*([A-Z][A-Za-z]+([0-9][0-9][a-z]?)?)$")
+                continue()
+            endif()
+            set(key "${CMAKE_MATCH_1}")
+            list(APPEND cited "${key}")
+            if(key MATCHES "[0-9]" AND NOT key IN_LIST keys)
+                list(APPEND faults "${source} cites [${key}], which docs/references.bib lacks")
+            endif()
+        endforeach()
+    endforeach()
+endforeach()
+
+foreach(key IN LISTS keys)
+    if(NOT key IN_LIST cited)
+        list(APPEND faults "docs/references.bib has ${key}, which nothing cites")
+    endif()
+endforeach()
+
+list(REMOVE_DUPLICATES faults)
+list(JOIN faults "\n  " report)
+if(faults)
+    message(FATAL_ERROR "citations:\n  ${report}")
+endif()
