@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
+#include <cstring>
 #include <vector>
 
 #include "prt/base/random.h"
@@ -57,6 +58,19 @@ void evaluateBatches(benchmark::State& state) {
     countDirections(state);
 }
 BENCHMARK(evaluateBatches)->Name("sh/batch_of_16")->Arg(3)->Arg(5)->Arg(10);
+
+/// What no evaluation that hands out its values can beat: writing that many bytes.
+void storeBatches(benchmark::State& state) {
+    alignas(64) std::array<float, shCoefficientCount(5) * kShBatchSize> values;
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < kDirectionCount; i += kShBatchSize) {
+            std::memset(values.data(), 0, sizeof(values));
+            benchmark::ClobberMemory();
+        }
+    }
+    countDirections(state);
+}
+BENCHMARK(storeBatches)->Name("sh/storing_batch_of_16/5");
 
 void evaluateSingly(benchmark::State& state) {
     const int bandCount = static_cast<int>(state.range(0));

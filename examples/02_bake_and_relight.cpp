@@ -1,5 +1,5 @@
-// The whole pipeline without a file: bake the teapot once, and relight it by a sun that goes round
-// it.
+// The whole pipeline without a file: bake the teapot once, and relight
+// it by a sun that goes round it.
 //
 //   02_bake_and_relight OUT.png
 

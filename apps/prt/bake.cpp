@@ -100,8 +100,8 @@ void checkArguments(const BakeArguments& arguments) {
     if (!arguments.stats.empty()) checkWritable(arguments.stats);
 }
 
-/// Reads the scene and makes its triangles small enough to hold a shadow. Sets the edge length that
-/// was chosen.
+/// Reads the scene and makes its triangles small enough to hold a shadow. Sets
+/// the edge length that was chosen.
 Scene prepareScene(BakeArguments& arguments, StageLog& log) {
     Stopwatch watch;
     Scene scene = loadScene(arguments.scene);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,18 +10,6 @@
 
 namespace prt::cli {
 namespace {
-
-Lighting convertLighting(Lighting lighting, ShConvention convention) {
-    std::vector<double> channelValues(lighting.coefficients.size());
-    for (int channel = 0; channel < 3; ++channel) {
-        for (std::size_t i = 0; i < channelValues.size(); ++i)
-            channelValues[i] = lighting.coefficients[i][channel];
-        convertSh(convention, channelValues);
-        for (std::size_t i = 0; i < channelValues.size(); ++i)
-            lighting.coefficients[i][channel] = channelValues[i];
-    }
-    return lighting;
-}
 
 std::string_view describeConvention(ShConvention convention) {
     switch (convention) {
@@ -65,16 +51,6 @@ std::string formatTable(const Lighting& lighting) {
         text += "\n";
     }
     return text;
-}
-
-std::string formatJson(const Lighting& lighting, ShConvention convention) {
-    std::string text = lightingToJson(lighting);
-    if (convention != ShConvention::cs) {
-        auto json = nlohmann::ordered_json::parse(text);
-        json["convention"] = shConventionName(convention);
-        text = json.dump();
-    }
-    return text.ends_with('\n') ? text : text + "\n";
 }
 
 /// How a language spells an array of vectors.
@@ -125,12 +101,12 @@ std::optional<CoefficientFormat> parseCoefficientFormat(std::string_view name) {
 
 std::string formatCoefficients(const Lighting& lighting, CoefficientFormat format,
                                ShConvention convention) {
-    const Lighting converted = convertLighting(lighting, convention);
+    const Lighting converted = convert(lighting, convention);
     switch (format) {
         case CoefficientFormat::table:
             return formatTable(converted);
         case CoefficientFormat::json:
-            return formatJson(converted, convention);
+            return lightingToJson(lighting, convention);
         case CoefficientFormat::glsl:
         case CoefficientFormat::hlsl:
         case CoefficientFormat::c:

@@ -15,8 +15,8 @@ bool interruptRequested();
 /// Throws Error{cancelled} if one did.
 void stopIfInterrupted();
 
-/// While it lives an interrupt is only remembered: for work that must clean up after itself or be
-/// finished.
+/// While it lives an interrupt is only remembered: for work that must clean
+/// up after itself or be finished.
 class DeferInterrupts {
   public:
     DeferInterrupts();

@@ -39,8 +39,8 @@ LightSource loadLight(const std::string& argument, int bandCount,
 /// The sentence that says which texels were mended; nothing where all were good.
 std::optional<std::string> describeMending(const SanitiseReport& mended);
 
-/// The light as an image to be seen behind a scene: the environment, or what the coefficients stand
-/// for.
+/// The light as an image to be seen behind a scene: the environment, or
+/// what the coefficients stand for.
 Environment makeBackground(const LightSource& light, const Mat3d& rotation);
 
 }  // namespace prt::cli

@@ -14,8 +14,8 @@ inline constexpr std::string_view kPictureSuffixes = ".exr .png";
 /// Whether the name asks for linear radiance rather than a picture for the screen.
 bool isExr(const std::string& path);
 
-/// Writes .exr as linear radiance untouched, .png as the display options say. @throws Error
-/// writeFailed
+/// Writes .exr as linear radiance untouched, .png as the display options
+/// say. @throws Error writeFailed
 void writePicture(const std::string& path, const Image& radiance,
                   const DisplayOptions& display = {});
 

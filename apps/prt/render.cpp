@@ -90,8 +90,8 @@ Transport fullestTransport(const CompressedTransfer& transfer) {
     return fullest;
 }
 
-/// The unshadowed layer follows from the normals, so every asset can show it; the others must have
-/// been baked.
+/// The unshadowed layer follows from the normals, so every asset can show it;
+/// the others must have been baked.
 CompressedTransfer provideLayer(const RenderArguments& arguments, Asset& asset,
                                 Transport transport) {
     if (asset.transfer.findLayer(transport)) return std::move(asset.transfer);

@@ -29,8 +29,8 @@ struct Asset {
     Provenance provenance;
 };
 
-/// The version of the format that this library writes; it reads all versions with the same major
-/// number.
+/// The version of the format that this library writes; it reads all
+/// versions with the same major number.
 inline constexpr int kAssetVersionMajor = 1;
 inline constexpr int kAssetVersionMinor = 0;
 
@@ -48,8 +48,7 @@ void writeAsset(const std::filesystem::path& path, const Scene& scene,
 /// Reads and checks a .prt.glb. Images stay encoded.
 ///
 /// @throws Error  notFound, unreadable, malformed (a checksum that differs, among others), or
-/// unsupported: another major
-///                version, a glTF without the extension
+///                unsupported: another major version, a glTF without the extension
 Asset readAsset(const std::filesystem::path& path);
 
 }  // namespace prt

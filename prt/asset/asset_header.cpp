@@ -25,8 +25,8 @@ std::string formatVersion() {
     return std::to_string(kAssetVersionMajor) + "." + std::to_string(kAssetVersionMinor);
 }
 
-/// The CRC-32 of a layer's description: a line of text with all that it says, and its ranges as
-/// floats.
+/// The CRC-32 of a layer's description: a line of text with all that it
+/// says, and its ranges as floats.
 std::string computeLayerChecksum(int bandCount, const CompressedLayer& layer,
                                  const AttributeRange& range) {
     std::string bytes = std::string(transportName(layer.transport)) + " " +
@@ -102,8 +102,8 @@ void parseRanges(const JsonCursor& object, std::size_t count, CompressedLayer& l
         if (layer.scale[i] < 0.0f) object.at("scale")[i].reject("is negative");
 }
 
-/// One member of the header's list of layers; passed over if a newer minor version names a kind not
-/// known here.
+/// One member of the header's list of layers; passed over if a newer minor
+/// version names a kind not known here.
 void parseLayer(const JsonCursor& object, bool isNewer, AssetHeader& header) {
     const auto transport = parseTransport(object.at("transport").toString());
     const auto encoding = parseEncoding(object.at("encoding").toString());
@@ -143,8 +143,8 @@ void checkLayers(const JsonCursor& list, const AssetHeader& header) {
     }
 }
 
-/// Whether the file's minor version is newer than ours. @throws Error unsupported for another major
-/// version
+/// Whether the file's minor version is newer than ours. @throws Error
+/// unsupported for another major version
 bool parseVersion(const JsonCursor& cursor) {
     const std::string& text = cursor.toString();
     int major = 0;

@@ -106,8 +106,8 @@ void checkGeometry(const BoundAttributes& attributes, const Mesh& mesh) {
     }
 }
 
-/// Copies the coefficients [4·part, 4·part + 4) of each vertex to its row; those beyond the last
-/// must be zero.
+/// Copies the coefficients [4·part, 4·part + 4) of each vertex to its row;
+/// those beyond the last must be zero.
 void placeAttribute(std::span<const std::byte> values, std::size_t elementBytes, std::size_t part,
                     std::size_t rowBytes, std::span<std::byte> rows) {
     const std::size_t begin = part * elementBytes;
@@ -123,8 +123,8 @@ void placeAttribute(std::span<const std::byte> values, std::size_t elementBytes,
     }
 }
 
-/// Demands that floats are finite and of a size that transfer can have; quantised ones are so by
-/// their ranges.
+/// Demands that floats are finite and of a size that transfer can have;
+/// quantised ones are so by their ranges.
 void checkCoefficients(const CompressedLayer& layer) {
     if (layer.encoding != TransferEncoding::float32) return;
     for (std::size_t offset = 0; offset < layer.data.size(); offset += sizeof(float)) {

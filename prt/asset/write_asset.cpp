@@ -15,8 +15,8 @@ namespace {
 /// The coefficients of one mesh's vertices: a part of the scene-wide list of receivers.
 using Receivers = std::span<const std::uint32_t>;
 
-/// Copies the coefficients [4·part, 4·part + 4) of each vertex's receiver; those beyond the last
-/// stay zero.
+/// Copies the coefficients [4·part, 4·part + 4) of each vertex's receiver;
+/// those beyond the last stay zero.
 void copyAttribute(const CompressedTransfer& transfer, const CompressedLayer& layer,
                    std::size_t part, Receivers receivers, std::span<std::byte> values) {
     const std::size_t coefficientBytes = bytesPerCoefficient(layer.encoding);

@@ -7,7 +7,7 @@ namespace prt {
 
 }  // namespace prt
 
-/// States a precondition; on in every build. Nothing a file contains may reach one: that is an
-/// Error.
+/// States a precondition; on in every build. Nothing a file contains
+/// may reach one: that is an Error.
 #define PRT_ASSERT(condition, why) \
     ((condition) ? static_cast<void>(0) : ::prt::failAssertion(#condition, why, __FILE__, __LINE__))

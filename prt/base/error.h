@@ -5,8 +5,8 @@
 
 namespace prt {
 
-/// Why something outside the program could not be used. The command line turns it into an exit
-/// code.
+/// Why something outside the program could not be used. The command
+/// line turns it into an exit code.
 enum class ErrorCode {
     notFound,       ///< the file does not exist
     unreadable,     ///< the file exists but the system would not give its bytes
@@ -19,8 +19,8 @@ enum class ErrorCode {
     cancelled,      ///< the caller's progress callback asked to stop
 };
 
-/// Outside data is wrong: what, where, and what was expected or can be done. Never thrown for a bug
-/// of ours.
+/// Outside data is wrong: what, where, and what was expected or can be done.
+/// Never thrown for a bug of ours.
 ///
 /// what() is one sentence without the file name and without a final full stop.
 class Error : public std::runtime_error {

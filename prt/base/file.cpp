@@ -22,10 +22,21 @@ namespace fs = std::filesystem;
                 "check that the folder exists, is writable and has space");
 }
 
+/// A rename over a folder fails late, and one over a device would remove it.
+void checkReplaceable(const fs::path& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::is_directory(status))
+        throw Error(ErrorCode::writeFailed, "is a folder, not a file", path.string());
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        throw Error(ErrorCode::writeFailed, "is a device or a pipe, not a file", path.string());
+}
+
 /// An open temporary file beside its destination; removed again unless committed.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const fs::path& destination) : destination_(destination) {
+        checkReplaceable(destination);
         temporary_ = destination.string() + ".part-XXXXXX";
         descriptor_ = ::mkstemp(temporary_.data());
         if (descriptor_ < 0) throwWriteFailed(destination_, errno);
@@ -111,9 +122,7 @@ void writeFileAtomically(const fs::path& path, const std::string& text) {
 }
 
 void checkWritable(const fs::path& path) {
-    if (fs::is_directory(path))
-        throw Error(ErrorCode::writeFailed, "is a folder, not a file", path.string());
-    TemporaryFile probe(path);
+    const TemporaryFile probe(path);
 }
 
 }  // namespace prt

@@ -93,8 +93,7 @@ HWY_INLINE void evaluateShOrders(D d, V x, V y, V z, V cosine, V sine, Store sto
 /// @param d        float or double lanes
 /// @param x, y, z  unit directions
 /// @param store    called once a function as store(index, value), with a constant index; a lambda
-/// of the
-///                 caller, marked HWY_ATTR
+///                 of the caller, marked HWY_ATTR
 template <int kBandCount, class D, class V, class Store>
 HWY_INLINE void evaluateShLanes(D d, V x, V y, V z, Store store) {
     evaluateShDegrees<kBandCount, 0, 0>(d, z, z, z, z, z, store);

@@ -9,12 +9,12 @@ namespace prt {
 
 /// Real orthonormal spherical harmonics with the Condon-Shortley phase, polar axis +z (C1, C2):
 ///
-///   y_lm(θ, φ) = (−1)^m √2 K_lm P_l^|m|(cos θ) · {cos mφ, m > 0;  sin |m|φ, m < 0},   y_l0 = K_l0
-///   P_l(cos θ)
+///   y_lm(θ, φ) = (−1)^m √2 K_lm P_l^|m|(cos θ) · {cos mφ, m > 0;  sin |m|φ, m < 0}
+///   y_l0(θ, φ) = K_l0 P_l(cos θ)
 ///
-/// with K_lm = √((2l+1)/4π · (l−|m|)!/(l+|m|)!) and P without phase [Sloan08, Dachsbacher].
-/// Coefficient (l, m) has index l(l+1)+m (C3), and "n bands" means degrees 0 … n−1, n²
-/// coefficients.
+/// with K_lm = √((2l+1)/4π · (l−|m|)!/(l+|m|)!) and P without phase [Sloan08,
+/// Dachsbacher17]. Coefficient (l, m) has index l(l+1)+m (C3), and "n bands" means
+/// degrees 0 … n−1, n² coefficients.
 
 /// The largest band count of the straight-line kernels, of transfer and of assets.
 inline constexpr int kMaxBandCount = 10;

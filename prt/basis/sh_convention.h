@@ -6,8 +6,8 @@
 
 namespace prt {
 
-/// Published conventions for SH coefficients of radiance, reached from ours by sign changes and a
-/// mirror (C2).
+/// Published conventions for SH coefficients of radiance, reached from ours by
+/// sign changes and a mirror (C2).
 enum class ShConvention {
     cs,    ///< ours: Condon-Shortley phase, right-handed axes
     rh,    ///< Ramamoorthi and Hanrahan 2001: no phase, left-handed axes with +z ahead, as in their
@@ -19,8 +19,8 @@ enum class ShConvention {
 std::string_view shConventionName(ShConvention convention);
 std::optional<ShConvention> parseShConvention(std::string_view name);
 
-/// Multiplies n² coefficients by the signs that lead from ours to `convention`; the same signs lead
-/// back.
+/// Multiplies n² coefficients by the signs that lead from ours to
+/// `convention`; the same signs lead back.
 void convertSh(ShConvention convention, std::span<double> coefficients);
 
 }  // namespace prt

@@ -69,8 +69,8 @@ void computeRow(const Block& first, const Block& below, int m, double* row) {
     }
 }
 
-/// What the entries of each column are multiplied by: 1/√((l+k)(l−k)), or 1/√(2l(2l−1)) at the two
-/// edges.
+/// What the entries of each column are multiplied by: 1/√((l+k)(l−k)), or
+/// 1/√(2l(2l−1)) at the two edges.
 std::vector<double> computeColumnFactors(int l) {
     const double edge = 1.0 / std::sqrt(static_cast<double>(2 * l * (2 * l - 1)));
     std::vector<double> factors(static_cast<std::size_t>(2 * l + 1), edge);
@@ -92,9 +92,9 @@ ShRotation::ShRotation(const Mat3d& rotation, int bandCount)
     *centre(0) = 1.0;
     if (bandCount == 1) return;
 
-    // The functions of degree 1 are −y, z and −x (C2). These two signs are all that the phase
-    // changes: the recurrence hands them on, since the orders of its factors add up to the order of
-    // the product.
+    // The functions of degree 1 are −y, z and −x (C2). These two signs are all that the
+    // phase changes: the recurrence hands them on, since the orders of its factors add
+    // up to the order of the product.
     constexpr int kAxes[3] = {1, 2, 0};
     for (int m = -1; m <= 1; ++m) {
         for (int k = -1; k <= 1; ++k) {

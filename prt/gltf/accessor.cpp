@@ -184,8 +184,8 @@ std::uint32_t readIndex(const std::byte* bytes, ComponentType type) {
     }
 }
 
-/// Calls `visit(i, bytes)` for each element i, and once more for those that a sparse accessor
-/// replaces.
+/// Calls `visit(i, bytes)` for each element i, and once more for those
+/// that a sparse accessor replaces.
 template <class Visit>
 void visitElements(const Accessor& accessor, Visit visit) {
     static constexpr std::array<std::byte, kMaxElementBytes> kZeros{};

@@ -217,8 +217,8 @@ class GlbDescription {
         }
     }
 
-    /// The mesh's material; without the textures for which the mesh has no UVs, which glTF does not
-    /// allow.
+    /// The mesh's material; without the textures for which the mesh has no
+    /// UVs, which glTF does not allow.
     std::size_t findMaterial(const Mesh& mesh) {
         const auto lacksUvs = [&](const std::optional<TextureUse>& texture) {
             return texture && mesh.uvSets[static_cast<std::size_t>(texture->uvSet)].empty();

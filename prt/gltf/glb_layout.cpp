@@ -143,8 +143,8 @@ class Arranger {
                  std::move(write)});
     }
 
-    /// Pads what an accessor reads to the alignment; images need none, and stay as long as they
-    /// came.
+    /// Pads what an accessor reads to the alignment; images need none,
+    /// and stay as long as they came.
     void addView(ViewLayout view) {
         const std::size_t dataBytes = view.byteLength;
         if (view.target != ViewTarget::none) view.byteLength = alignUp(dataBytes);

@@ -33,18 +33,17 @@ struct GlbExtension {
 /// A CRC-32 as the extension's checksums write it: eight lower-case hexadecimal digits.
 std::string formatChecksum(std::uint32_t crc32);
 
-/// The scene as a binary glTF: one node and one mesh with one primitive for each mesh of the scene,
-/// materials, images as they came, cameras. Passes the Khronos validator without errors or
-/// warnings. Meshes without a triangle are left out, and colour factors are clamped to what glTF
-/// allows.
+/// The scene as a binary glTF: one node and one mesh with one primitive for each mesh of
+/// the scene, materials, images as they came, cameras. Passes the Khronos validator
+/// without errors or warnings. Meshes without a triangle are left out, and colour factors
+/// are clamped to what glTF allows.
 ///
 /// @param extension  optional; listed in extensionsUsed, never in extensionsRequired. Its root
-/// object is given a member
-///                   "checksums", an array with the CRC-32 of each buffer view, and each of its
-///                   mesh objects one that maps the mesh's attributes to those of their values
+///                   object is given a member "checksums", an array with the CRC-32 of each buffer
+///                   view, and each of its mesh objects one that maps the mesh's attributes to
+///                   those of their values
 /// @throws Error     malformed if the scene holds a number that is not finite; limitExceeded beyond
-/// the 4 GiB that a
-///                   binary glTF can have
+///                   the 4 GiB that a binary glTF can have
 std::vector<std::byte> encodeGlb(const Scene& scene, const GlbExtension* extension = nullptr);
 
 /// Writes a plain scene atomically. @throws Error as encodeGlb, and writeFailed

@@ -13,8 +13,8 @@
 namespace prt {
 namespace {
 
-/// Calls `work` and gives every Error that it throws the file's name, where it does not name
-/// another.
+/// Calls `work` and gives every Error that it throws the file's name,
+/// where it does not name another.
 template <class Work>
 auto namingFile(const std::string& file, Work work) {
     try {

@@ -187,8 +187,8 @@ void MaterialParser::parseAlpha(const JsonCursor& value, Material& material) {
         static_cast<float>(clampedNumber(value, "alphaCutoff", 0.5, kHighestCutoff));
 }
 
-/// Gives the bound texture one of the two UV sets: one that already is what it needs, or a free
-/// one.
+/// Gives the bound texture one of the two UV sets: one that already
+/// is what it needs, or a free one.
 void assignUvSet(Binding& binding, MaterialRecord& record, std::array<bool, 2>& isTaken) {
     std::size_t set = std::min<std::size_t>(binding.uvSource.texCoord, 1);
     if (record.uvSources[1 - set] == binding.uvSource) set = 1 - set;

@@ -60,8 +60,8 @@ Vec3f unitOrZero(const Vec3d& vector) {
     return length > 0.0 && std::isfinite(length) ? Vec3f(vector / length) : Vec3f(0.0f);
 }
 
-/// Gives the mesh the file's normals, and computed ones where the file's have no direction or are
-/// missing.
+/// Gives the mesh the file's normals, and computed ones where the file's
+/// have no direction or are missing.
 void readNormals(const Model& model, const Primitive& primitive, const Mat3d& worldFromNormal,
                  Mesh& mesh, Warnings& warnings) {
     std::vector<Vec3f> normals(mesh.vertexCount(), Vec3f(0.0f));

@@ -19,8 +19,8 @@
 
 namespace prt::gltf {
 
-/// A glTF file taken apart: every index between its parts is valid and every accessor has its
-/// bytes.
+/// A glTF file taken apart: every index between its parts is valid
+/// and every accessor has its bytes.
 struct Model {
     /// @throws Error  as readGltf, without the file's name
     ///

@@ -165,8 +165,8 @@ std::vector<std::uint32_t> readTriangles(const Primitive& primitive,
         corners.resize(triangleCount * 3);
         return corners;
     }
-    // Every other triangle of a strip would turn the wrong way; a fan's triangles end at its first
-    // vertex.
+    // Every other triangle of a strip would turn the wrong way; a fan's
+    // triangles end at its first vertex.
     std::vector<std::uint32_t> triangles;
     triangles.reserve(triangleCount * 3);
     for (std::size_t i = 0; i < triangleCount; ++i) {

@@ -32,8 +32,8 @@ struct MeshRecord {
     std::vector<Primitive> primitives;
 };
 
-/// Reads the file's meshes; the accessors of each primitive are known to have formats that their
-/// semantics allow.
+/// Reads the file's meshes; the accessors of each primitive are known to have
+/// formats that their semantics allow.
 ///
 /// @param isQuantized  whether the file uses KHR_mesh_quantization
 std::vector<MeshRecord> parseMeshes(const JsonCursor& root, const std::vector<Accessor>& accessors,

@@ -9,8 +9,8 @@
 
 namespace prt::gltf {
 
-/// Fetches what an asset's URIs name: data URIs, and files of the asset's own folder, never any
-/// other.
+/// Fetches what an asset's URIs name: data URIs, and files of the
+/// asset's own folder, never any other.
 class ResourceLoader {
   public:
     /// @param folder      where the glTF lies

@@ -1,7 +1,6 @@
 // Bibliography
-//   [Debevec98]  Rendering synthetic objects into real scenes (angular maps of the light probe
-//   gallery) [Arvo95]     Applications of irradiance tensors to the simulation of non-Lambertian
-//   phenomena
+//   [Debevec98]  Rendering synthetic objects into real scenes (angular maps)
+//   [Arvo95]     Applications of irradiance tensors to the simulation of non-Lambertian phenomena
 #include "prt/image/sphere_map.h"
 
 #include <algorithm>
@@ -47,16 +46,16 @@ void checkShape(SphereMap map, int width, int height) {
     PRT_ASSERT(fits(traitsOf(map), width, height), "the image has the shape of its map");
 }
 
-/// std::hypot without its care for overflow, which unit lengths do not need and a million texels
-/// feel.
+/// std::hypot without its care for overflow, which unit lengths do not
+/// need and a million texels feel.
 double lengthOf(double x, double y) {
     return std::sqrt(x * x + y * y);
 }
 
 // ── Cube maps ────────────────────────────────────────────────────────────────────────────────────
 
-/// A face of the cube: the axis through its centre, and the axes that the image's x and y run
-/// along.
+/// A face of the cube: the axis through its centre, and the axes that
+/// the image's x and y run along.
 struct CubeFace {
     int column;  ///< of the cell that the face fills
     int row;
@@ -114,8 +113,8 @@ const CubeFaces& cubeFaces(SphereMap map) {
     return kHorizontalStrip;
 }
 
-/// The solid angle of the rectangle from the face's centre to (x, y), both in units of its
-/// distance.
+/// The solid angle of the rectangle from the face's centre to (x, y),
+/// both in units of its distance.
 double cornerSolidAngle(double x, double y) {
     return std::atan2(x * y, std::sqrt(x * x + y * y + 1.0));
 }

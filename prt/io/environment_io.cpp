@@ -34,8 +34,8 @@ std::string lowerCase(std::string text) {
     return text;
 }
 
-/// The images of a folder by their lower-case names without suffix; of two with one name the first
-/// in order.
+/// The images of a folder by their lower-case names without suffix; of two
+/// with one name the first in order.
 std::map<std::string, fs::path> listImages(const fs::path& folder) {
     std::map<std::string, fs::path> images;
     std::error_code failure;

@@ -20,8 +20,7 @@ struct LoadedEnvironment {
 /// finite value; all are counted.
 ///
 /// @param path  an image, or a folder with six square faces named px nx py ny pz nz (or posx negx
-/// …)
-///              as OpenGL stores them, which become a horizontal strip
+///              …) as OpenGL stores them, which become a horizontal strip
 /// @param map   the layout of an image; by default recognised from the shape
 /// @throws Error  as readImage; malformed when no layout, or not the one wanted, has this shape;
 ///                invalidOption when a folder is given a layout
@@ -30,7 +29,9 @@ LoadedEnvironment loadEnvironment(const std::filesystem::path& path,
                                   const ImageLimits& limits = {});
 
 /// `{"bands": n, "convention": "cs", "coefficients": [[r, g, b], … n² of them]}`.
-std::string lightingToJson(const Lighting& lighting);
+///
+/// @param convention  what the coefficients are turned into
+std::string lightingToJson(const Lighting& lighting, ShConvention convention = ShConvention::cs);
 
 /// Reads what lightingToJson writes, in any of the named conventions.
 ///

@@ -19,8 +19,8 @@
 namespace prt {
 namespace {
 
-// Lines decoded at a time: the largest block of any compression (DWAB), so that none is decoded
-// twice.
+// Lines decoded at a time: the largest block of any compression (DWAB),
+// so that none is decoded twice.
 constexpr int kBlockLineCount = 256;
 
 class MemoryInput : public Imf::IStream {
@@ -110,8 +110,8 @@ Image readFirstPart(Imf::MultiPartInputFile& file, const std::string& name) {
     Image image;
     image.width = window.max.x - window.min.x + 1;
     image.height = window.max.y - window.min.y + 1;
-    // Reserving takes address space only: memory is used as blocks arrive, so a damaged file stays
-    // cheap.
+    // Reserving takes address space only: memory is used as blocks arrive,
+    // so a damaged file stays cheap.
     image.pixels.reserve(std::size_t(image.width) * std::size_t(image.height));
     image.pixels.resize(1);
     Imf::InputPart part(file, 0);

@@ -17,11 +17,11 @@ struct ImageLimits {
     std::uintmax_t maxFileBytes = std::uintmax_t(2) << 30;
 };
 
-/// Reads .exr (any compression, as float), .hdr, .png or .jpg (decoded from sRGB) as linear RGB
-/// (C5).
+/// Reads .exr (any compression, as float), .hdr, .png or .jpg (decoded
+/// from sRGB) as linear RGB (C5).
 ///
-/// The format is told by the content, not the name. Values are as stored: NaN, ∞ and negative ones
-/// included.
+/// The format is told by the content, not the name. Values are as stored:
+/// NaN, ∞ and negative ones included.
 ///
 /// @throws Error  notFound, unreadable, malformed, unsupported, or limitExceeded
 Image readImage(const std::filesystem::path& path, const ImageLimits& limits = {});

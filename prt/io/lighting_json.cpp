@@ -5,7 +5,6 @@
 
 #include "prt/base/assert.h"
 #include "prt/base/error.h"
-#include "prt/basis/sh_convention.h"
 #include "prt/io/environment_io.h"
 
 namespace prt {
@@ -57,26 +56,14 @@ Vec3d readCoefficient(const json& row, std::size_t index, const std::string& nam
     return {row[0].get<double>(), row[1].get<double>(), row[2].get<double>()};
 }
 
-/// Changes signs; the same signs lead there and back.
-void convertToOurs(ShConvention convention, Lighting& lighting) {
-    std::vector<double> channelValues(lighting.coefficients.size());
-    for (int channel = 0; channel < 3; ++channel) {
-        for (std::size_t i = 0; i < channelValues.size(); ++i)
-            channelValues[i] = lighting.coefficients[i][channel];
-        convertSh(convention, channelValues);
-        for (std::size_t i = 0; i < channelValues.size(); ++i)
-            lighting.coefficients[i][channel] = channelValues[i];
-    }
-}
-
 }  // namespace
 
-std::string lightingToJson(const Lighting& lighting) {
+std::string lightingToJson(const Lighting& lighting, ShConvention convention) {
     std::string text = "{\"bands\": " + std::to_string(lighting.bandCount) +
-                       ", \"convention\": \"" + std::string(shConventionName(ShConvention::cs)) +
+                       ", \"convention\": \"" + std::string(shConventionName(convention)) +
                        "\", \"coefficients\": [";
     const char* separator = "\n  ";
-    for (const Vec3d& c : lighting.coefficients) {
+    for (const Vec3d& c : convert(lighting, convention).coefficients) {
         PRT_ASSERT(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z),
                    "JSON holds finite numbers only");
         text += separator + json({c.x, c.y, c.z}).dump();
@@ -96,8 +83,7 @@ Lighting lightingFromJson(const std::string& text, const std::string& name) {
              name);
     for (std::size_t i = 0; i < lighting.coefficients.size(); ++i)
         lighting.coefficients[i] = readCoefficient((*rows)[i], i, name);
-    convertToOurs(convention, lighting);
-    return lighting;
+    return convert(lighting, convention);
 }
 
 }  // namespace prt

@@ -74,8 +74,8 @@ class EarClipper {
         return true;
     }
 
-    /// The next ear from corner `start` on. A polygon that crosses itself may have none: then any
-    /// corner will do.
+    /// The next ear from corner `start` on. A polygon that crosses itself may have
+    /// none: then any corner will do.
     std::size_t findEar(std::size_t start) const {
         for (std::size_t step = 0; step < left_.size(); ++step) {
             const std::size_t i = (start + step) % left_.size();

@@ -10,9 +10,9 @@ namespace prt {
 
 /// Cuts a polygon into count − 2 triangles and appends their corners, numbered as in the polygon.
 ///
-/// A convex polygon becomes a fan; a concave one loses one ear after the other [Meisters75], seen
-/// along its area vector. Polygons that cross themselves become some triangulation of their
-/// corners.
+/// A convex polygon becomes a fan; a concave one loses one ear after the other
+/// [Meisters75], seen along its area vector. Polygons that cross themselves become some
+/// triangulation of their corners.
 ///
 /// @param corners  at least three
 void triangulatePolygon(std::span<const Vec3f> corners, std::vector<std::uint32_t>& triangles);

@@ -95,8 +95,8 @@ class MtlParser {
             for (int i = 0; i < known->maxArgumentCount; ++i) {
                 std::string_view afterArgument = rest;
                 const std::string_view argument = takeWord(afterArgument);
-                // Only -o, -s and -t may have fewer arguments than the most, and theirs are
-                // numbers.
+                // Only -o, -s and -t may have fewer arguments than the most,
+                // and theirs are numbers.
                 if (i > 0 && !parseNumber<double>(argument)) break;
                 if (option == "-clamp") material.clampsTexture = argument == "on";
                 rest = afterArgument;

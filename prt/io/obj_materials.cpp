@@ -98,8 +98,8 @@ std::optional<std::size_t> ObjMaterials::loadTexture(const std::string& fileName
     return scene_.images.size() - 1;
 }
 
-/// The file of this name in the folder of the OBJ or below it; nothing if there is none, or if it
-/// is elsewhere.
+/// The file of this name in the folder of the OBJ or below it; nothing if there
+/// is none, or if it is elsewhere.
 std::optional<fs::path> ObjMaterials::findNeighbour(std::string_view fileName) const {
     std::string name(fileName);
     std::replace(name.begin(), name.end(), '\\', '/');

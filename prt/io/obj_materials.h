@@ -12,10 +12,10 @@ namespace prt {
 
 /// The materials of an OBJ file, brought into a scene as they are used.
 ///
-/// Kd becomes the base colour (linear, clamped to [0, 1]; white if absent), Ke the emission, and
-/// map_Kd the base colour texture. Transparency is left out. So is a library or texture that is
-/// missing, or not of a format we read, or outside the folder of the OBJ. The scene's warnings say
-/// so.
+/// Kd becomes the base colour (linear, clamped to [0, 1]; white if absent), Ke the
+/// emission, and map_Kd the base colour texture. Transparency is left out. So is a library
+/// or texture that is missing, or not of a format we read, or outside the folder of the
+/// OBJ. The scene's warnings say so.
 class ObjMaterials {
   public:
     /// @param folder  where the OBJ lies
@@ -28,8 +28,8 @@ class ObjMaterials {
     /// @throws Error  malformed, naming the library
     void addLibraries(std::string_view fileNames);
 
-    /// The index in the scene of the material with this name; of a default one if no library has
-    /// it.
+    /// The index in the scene of the material with this name; of a
+    /// default one if no library has it.
     std::size_t use(const std::string& name);
 
   private:

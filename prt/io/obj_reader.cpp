@@ -98,8 +98,8 @@ class ObjMeshBuilder {
     Mesh mesh_;
 };
 
-/// The faces of each material, by its index in the geometry; materials in the order of their first
-/// face.
+/// The faces of each material, by its index in the geometry; materials in
+/// the order of their first face.
 std::vector<std::vector<std::size_t>> groupFacesByMaterial(const ObjGeometry& geometry) {
     std::vector<std::size_t> groupOfMaterial(geometry.materialNames.size(), geometry.faces.size());
     std::vector<std::vector<std::size_t>> groups;

@@ -27,8 +27,8 @@ class PlyBody {
     /// Passes over the value or the list of a property.
     void skip(const PlyProperty& property);
 
-    /// Refuses an element whose instances cannot all be in the bytes left, before anything is
-    /// allocated.
+    /// Refuses an element whose instances cannot all be in the bytes
+    /// left, before anything is allocated.
     void checkCount(const PlyElement& element) const;
 
   private:

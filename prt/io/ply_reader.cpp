@@ -60,8 +60,8 @@ VertexLayout layOutVertex(const PlyElement& element) {
     return layout;
 }
 
-/// A colour channel as a fraction of the type's largest value; floating-point ones are fractions
-/// already.
+/// A colour channel as a fraction of the type's largest value;
+/// floating-point ones are fractions already.
 float fractionOf(double value, PlyType type) {
     if (type == PlyType::uint8) value /= std::numeric_limits<std::uint8_t>::max();
     if (type == PlyType::uint16) value /= std::numeric_limits<std::uint16_t>::max();

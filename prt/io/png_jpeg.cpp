@@ -13,9 +13,9 @@
 namespace prt {
 namespace {
 
-// No encoding is denser: a PNG of one bit a pixel under deflate's bound of 1032 : 1, and a JPEG of
-// one bit for each block of 8 × 8. A file shorter than that is refused before anything is
-// allocated.
+// No encoding is denser: a PNG of one bit a pixel under deflate's bound of 1032 :
+// 1, and a JPEG of one bit for each block of 8 × 8. A file shorter than that is
+// refused before anything is allocated.
 constexpr std::int64_t kMaxPngPixelsPerByte = 8 * 1032;
 constexpr std::int64_t kMaxJpegPixelsPerByte = 8 * 64;
 

@@ -33,8 +33,8 @@ class RadianceReader {
         Image image;
         image.width = width_;
         image.height = height_;
-        // Reserving takes address space only: memory is used as rows arrive, so a short file stays
-        // cheap.
+        // Reserving takes address space only: memory is used as rows
+        // arrive, so a short file stays cheap.
         image.pixels.reserve(std::size_t(width_) * std::size_t(height_));
         std::vector<Rgbe> row(static_cast<std::size_t>(width_));
         for (int y = 0; y < height_; ++y) {
@@ -118,8 +118,8 @@ class RadianceReader {
         return pixel;
     }
 
-    /// Pixels one after the other; the older run-length code repeats the last pixel n times by (1,
-    /// 1, 1, n).
+    /// Pixels one after the other; the older run-length code repeats the last
+    /// pixel n times by (1, 1, 1, n).
     void readFlatRow(std::vector<Rgbe>& row, Rgbe pixel) {
         int repeatShift = 0;
         for (std::size_t x = 0;;) {

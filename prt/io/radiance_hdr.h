@@ -8,8 +8,8 @@
 
 namespace prt {
 
-/// Decodes a Radiance picture: flat or run-length encoded RGBE, rows from the top, columns from the
-/// left.
+/// Decodes a Radiance picture: flat or run-length encoded RGBE, rows from
+/// the top, columns from the left.
 ///
 /// A channel is mantissa · 2^(exponent − 136), without the half that Radiance itself adds; the
 /// EXPOSURE of the header is not applied.

@@ -31,8 +31,8 @@ std::string_view takeWord(std::string_view& text);
 /// The text without blanks and tabs at its ends.
 std::string_view trim(std::string_view text);
 
-/// The whole word as a number in the "C" locale, correctly rounded; "nan" and "inf" are numbers
-/// too.
+/// The whole word as a number in the "C" locale, correctly rounded;
+/// "nan" and "inf" are numbers too.
 template <class Number>
 std::optional<Number> parseNumber(std::string_view word) {
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);

@@ -102,8 +102,8 @@ std::vector<std::size_t> findLowestMinima(const DirectionGrid& grid,
     return minima;
 }
 
-/// Walks downhill from a direction by compass search: to the best of four neighbours, or closer if
-/// none is better.
+/// Walks downhill from a direction by compass search: to the best of four
+/// neighbours, or closer if none is better.
 double descend(std::span<const double> coefficients, int bandCount, Vec3d direction,
                double stepRadians) {
     constexpr double kFinestStepRadians = 1e-6;  // leaves an error of its square

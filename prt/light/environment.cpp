@@ -74,9 +74,9 @@ void sumRow(std::span<const Vec3f> row, std::span<const double> azimuthFunctions
     }
 }
 
-/// Projects a lat-long image as if each texel were constant: in a frame whose pole is +y the
-/// functions are products of one of azimuth and one of polar angle, so that a row costs 2n − 1 sums
-/// instead of n².
+/// Projects a lat-long image as if each texel were constant: in a frame whose pole is +y
+/// the functions are products of one of azimuth and one of polar angle, so that a row
+/// costs 2n − 1 sums instead of n².
 Lighting projectLatLong(const Image& image, int bandCount) {
     constexpr int kPolarNodeCount = 16;  // exact to rounding even for an image of one row
     const auto rule = gaussLegendre(kPolarNodeCount);

@@ -7,19 +7,32 @@
 
 namespace prt {
 
+namespace {
+
+/// The lighting with `change` made to the coefficients of each channel.
+template <class Change>
+Lighting changeChannels(const Lighting& lighting, const Change& change) {
+    Lighting changed(lighting.bandCount);
+    std::vector<double> values(lighting.coefficients.size());
+    for (int channel = 0; channel < 3; ++channel) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = lighting.coefficients[i][channel];
+        change(values);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            changed.coefficients[i][channel] = values[i];
+    }
+    return changed;
+}
+
+}  // namespace
+
 Lighting rotate(const Lighting& lighting, const Mat3d& rotation) {
     const ShRotation shRotation(rotation, lighting.bandCount);
-    Lighting rotated(lighting.bandCount);
-    std::vector<double> source(lighting.coefficients.size());
-    std::vector<double> target(lighting.coefficients.size());
-    for (int channel = 0; channel < 3; ++channel) {
-        for (std::size_t i = 0; i < source.size(); ++i)
-            source[i] = lighting.coefficients[i][channel];
-        shRotation.apply(source, target);
-        for (std::size_t i = 0; i < target.size(); ++i)
-            rotated.coefficients[i][channel] = target[i];
-    }
-    return rotated;
+    std::vector<double> source;
+    return changeChannels(lighting, [&](std::vector<double>& values) {
+        source = values;
+        shRotation.apply(source, values);
+    });
 }
 
 Lighting add(const Lighting& a, const Lighting& b) {
@@ -54,6 +67,11 @@ Lighting truncate(const Lighting& lighting, int bandCount) {
     std::copy_n(lighting.coefficients.begin(), truncated.coefficients.size(),
                 truncated.coefficients.begin());
     return truncated;
+}
+
+Lighting convert(const Lighting& lighting, ShConvention convention) {
+    return changeChannels(lighting,
+                          [&](std::vector<double>& values) { convertSh(convention, values); });
 }
 
 Vec3d reconstruct(const Lighting& lighting, const Vec3d& direction) {

@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "prt/basis/sh.h"
+#include "prt/basis/sh_convention.h"
 #include "prt/basis/sh_window.h"
 #include "prt/math/transform.h"
 
 namespace prt {
 
-/// Distant lighting in the SH basis: L_i = ∫ L(ω) y_i(ω) dω for each of red, green, blue (C2, C3,
-/// C5).
+/// Distant lighting in the SH basis: L_i = ∫ L(ω) y_i(ω) dω for each of
+/// red, green, blue (C2, C3, C5).
 struct Lighting {
     int bandCount = 0;
     std::vector<Vec3d> coefficients;  ///< n², W·sr⁻¹·m⁻²
@@ -35,6 +36,9 @@ Lighting applyWindow(const Lighting& lighting, std::span<const double> factors);
 
 /// The first n bands. @param bandCount  at most lighting.bandCount
 Lighting truncate(const Lighting& lighting, int bandCount);
+
+/// The coefficients in another convention; the same signs lead back to ours.
+Lighting convert(const Lighting& lighting, ShConvention convention);
 
 /// The radiance that the coefficients stand for, in one direction.
 Vec3d reconstruct(const Lighting& lighting, const Vec3d& direction);

@@ -30,8 +30,8 @@ std::vector<QuadratureNode> gaussLegendre(int nodeCount) {
     PRT_ASSERT(nodeCount >= 1, "a quadrature rule has a node");
     std::vector<QuadratureNode> nodes(static_cast<std::size_t>(nodeCount));
     for (int i = 0; i < nodeCount; ++i) {
-        // Start Newton's iteration from Tricomi's estimate of the root, from which a few steps
-        // suffice.
+        // Start Newton's iteration from Tricomi's estimate of the root,
+        // from which a few steps suffice.
         double x = -std::cos(std::numbers::pi * (i + 0.75) / (nodeCount + 0.5));
         LegendreValue legendre = evaluateLegendre(nodeCount, x);
         constexpr int kStepCount = 8;

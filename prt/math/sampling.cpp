@@ -15,8 +15,8 @@ std::uint32_t reverseBits(std::uint32_t bits) {
 }
 
 SquareBits sobolPoint(std::uint32_t index) {
-    // The first dimension is the radical inverse; the second's direction numbers are Pascal's
-    // triangle mod 2.
+    // The first dimension is the radical inverse; the second's direction
+    // numbers are Pascal's triangle mod 2.
     SquareBits point{reverseBits(index), 0};
     for (std::uint32_t direction = 0x80000000u; index != 0;
          index >>= 1, direction ^= direction >> 1)

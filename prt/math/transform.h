@@ -22,8 +22,8 @@ Mat3d rotationZ(double angleRadians);
 /// Active right-handed rotation about a unit axis.
 Mat3d rotationAbout(const Vec3d& axis, double angleRadians);
 
-/// An affine map p ↦ linear·p + translation, named destinationFromSource and chained left to right
-/// (C9).
+/// An affine map p ↦ linear·p + translation, named destinationFromSource
+/// and chained left to right (C9).
 struct Affine3d {
     Mat3d linear;  ///< identity by default
     Vec3d translation{0.0, 0.0, 0.0};
@@ -32,9 +32,9 @@ struct Affine3d {
 Affine3d operator*(const Affine3d& outer, const Affine3d& inner);
 Vec3d transformPoint(const Affine3d& map, const Vec3d& point);
 
-/// The matrix that takes normals with `linear`: its cofactors, which equal det(linear) times the
-/// inverse transpose, so a mirrored instance keeps its outside outside. The result is not
-/// normalised.
+/// The matrix that takes normals with `linear`: its cofactors, which equal
+/// det(linear) times the inverse transpose, so a mirrored instance keeps its outside
+/// outside. The result is not normalised.
 Mat3d normalMatrix(const Mat3d& linear);
 
 }  // namespace prt

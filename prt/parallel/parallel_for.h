@@ -14,8 +14,8 @@ struct ParallelOptions {
         1;  ///< items a task; fixed, so results cannot depend on the thread count (C10)
 };
 
-/// Calls `body(begin, end)` for consecutive chunks of [0, count), in any order and on several
-/// threads.
+/// Calls `body(begin, end)` for consecutive chunks of [0, count), in
+/// any order and on several threads.
 ///
 /// The first exception of a body stops the rest and is thrown again here.
 void parallelFor(std::size_t count, const ParallelOptions& options,

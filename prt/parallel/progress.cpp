@@ -20,8 +20,8 @@ void ProgressReporter::advance(std::uint64_t units) {
     if (cancelled_) throw Error(ErrorCode::cancelled, "cancelled");
     if (!callback_) return;
 
-    // Whoever finds another thread reporting goes on with its work; only the last unit waits for
-    // its turn.
+    // Whoever finds another thread reporting goes on with its work; only
+    // the last unit waits for its turn.
     std::unique_lock lock(reporting_, std::defer_lock);
     if (done == total_) {
         lock.lock();

@@ -21,8 +21,8 @@ struct Progress {
 /// throws Error{cancelled}. May be empty.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
-/// Collects progress from many threads and passes it on, at the start, at the end, and ten times a
-/// second between.
+/// Collects progress from many threads and passes it on, at the start, at the end,
+/// and ten times a second between.
 class ProgressReporter {
   public:
     /// @param callback, stage, unit  must outlive the reporter

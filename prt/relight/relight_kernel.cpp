@@ -54,8 +54,8 @@ HWY_INLINE void addCoefficient(const Stored* row, const Vec3f& light, RgbVector&
 
 /// Relights as many receivers of a block as a vector has lanes.
 ///
-/// Even and odd coefficients are summed apart: two short chains of dependent additions, not one
-/// long.
+/// Even and odd coefficients are summed apart: two short chains of
+/// dependent additions, not one long.
 template <int kChannelCount, class Stored>
 HWY_INLINE void relightLanes(const Stored* row, const FoldedLight& light, float* rgb) {
     constexpr std::size_t kRowSize = kChannelCount * kRelightBlockSize;

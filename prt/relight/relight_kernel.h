@@ -19,9 +19,9 @@ struct FoldedLight {
     Vec3f constant{0.0f, 0.0f, 0.0f};                                   ///< Σ_i b_i L_i
 };
 
-/// Transfer as the kernel reads it: for every 16 receivers a block [coefficient][channel][16
-/// lanes], the last one filled up. Fewer bands of light than of transfer then read the front of
-/// each block.
+/// Transfer as the kernel reads it: for every 16 receivers a block
+/// [coefficient][channel][16 lanes], the last one filled up. Fewer bands of light than of
+/// transfer then read the front of each block.
 struct TransferBlocks {
     TransferEncoding encoding = TransferEncoding::float32;
     std::size_t channelCount = 1;

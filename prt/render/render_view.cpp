@@ -42,8 +42,8 @@ void checkView(const Camera& camera, const RenderOptions& options) {
         throw Error(ErrorCode::invalidOption, "the field of view is not between 0 and 180 degrees");
 }
 
-/// Turns places on a picture, in pixels from its top left corner, into unit directions from the
-/// eye.
+/// Turns places on a picture, in pixels from its top left corner,
+/// into unit directions from the eye.
 class Pinhole {
   public:
     Pinhole(const Camera& camera, int width, int height)
@@ -66,26 +66,6 @@ class Pinhole {
     Vec3d right_;
     Vec3d up_;
 };
-
-/// Linear in the triangle, and exactly constant where the corners agree.
-template <class Value>
-Value interpolate(const Mesh& mesh, const SurfacePoint& point, std::span<const Value> values) {
-    const std::uint32_t* corners = &mesh.indices[3 * point.triangle];
-    const Value& origin = values[corners[0]];
-    return origin + (values[corners[1]] - origin) * point.u +
-           (values[corners[2]] - origin) * point.v;
-}
-
-Vec3f evaluateEmission(const Scene& scene, const SurfacePoint& point) {
-    const Mesh& mesh = scene.meshes[point.mesh];
-    const Material& material = scene.materials[mesh.material];
-    if (!material.emissiveTexture) return material.emissiveFactor;
-    const TextureUse& texture = *material.emissiveTexture;
-    const std::span<const Vec2f> uvs = mesh.uvSets[texture.uvSet == 1 ? 1 : 0];
-    if (uvs.empty()) return material.emissiveFactor;
-    const Vec4f sample = sampleTexture(scene, texture, interpolate(mesh, point, uvs));
-    return material.emissiveFactor * Vec3f(sample.x, sample.y, sample.z);
-}
 
 class ViewRenderer {
   public:
@@ -177,7 +157,8 @@ class ViewRenderer {
         const auto meshRadiance =
             vertexRadiance_.subspan(vertexOffsets_[hit.point.mesh], mesh.vertexCount());
         const Vec4f albedo = evaluateBaseColor(scene_, hit.point);
-        return Vec3f(albedo.x, albedo.y, albedo.z) * interpolate(mesh, hit.point, meshRadiance) +
+        return Vec3f(albedo.x, albedo.y, albedo.z) *
+                   interpolateCorners(mesh, hit.point, meshRadiance) +
                evaluateEmission(scene_, hit.point);
     }
 

@@ -30,11 +30,11 @@ struct RenderOptions {
 ///
 /// @param scene           textures decoded
 /// @param rays            of the same scene
-/// @param vertexRadiance  B of every vertex of the scene, before albedo, numbered mesh after mesh,
-///                        W·sr⁻¹·m⁻²
+/// @param vertexRadiance  B of every vertex of the scene, before albedo,
+///                        numbered mesh after mesh, W·sr⁻¹·m⁻²
 /// @return                linear radiance; the same for any number of threads (C10)
-/// @throws Error          invalidOption for a size, sample count or field of view out of range,
-///                        cancelled
+/// @throws Error          invalidOption for a size, sample count or field
+///                        of view out of range, cancelled
 Image renderView(const Scene& scene, const RayScene& rays, std::span<const Vec3f> vertexRadiance,
                  const Camera& camera, const RenderOptions& options = {});
 

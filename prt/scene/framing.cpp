@@ -14,8 +14,8 @@ constexpr double kFramingMargin = 1.05;
 // From the target to the eye: a little to the right and above.
 const Vec3d kFramingDirection(0.45, 0.4, 1.0);
 
-// The distance from the centre at which a point, given relative to it, comes to lie on a side of
-// the view.
+// The distance from the centre at which a point, given relative to it,
+// comes to lie on a side of the view.
 double distanceToContain(const Vec3d& point, const Camera& camera, double aspectRatio) {
     const Vec3d forward = Vec3d(camera.forward);
     const Vec3d up = Vec3d(camera.up);

@@ -29,8 +29,8 @@ void addTriangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) 
     mesh.indices.insert(mesh.indices.end(), {a, b, c});
 }
 
-// Joins the last rowCount rows of columnCount vertices into a grid; rows go up where columns go
-// right.
+// Joins the last rowCount rows of columnCount vertices into a grid;
+// rows go up where columns go right.
 void addGrid(Mesh& mesh, int rowCount, int columnCount, bool closed) {
     const std::size_t first = mesh.vertexCount() - static_cast<std::size_t>(rowCount * columnCount);
     const auto vertexAt = [&](int row, int column) {

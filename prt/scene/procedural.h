@@ -33,9 +33,9 @@ Mesh makeBox(const Vec3f& low, const Vec3f& high, bool facingInwards, int cellCo
 /// The unit sphere's part with z < openingHeight, seen from inside: the bowl whose interreflection
 /// has a closed form (docs/conventions.md, "Known answers").
 Mesh makeBowl(float openingHeight, int segmentCount);
-/// The Utah teapot from Newell's 32 patches, on y = 0, 2 m wide from the handle (−x) to the spout
-/// (+x) [Newell75]. As in the original, lid and rim do not touch, and handle and spout end inside
-/// the body.
+/// The Utah teapot from Newell's 32 patches, on y = 0, 2 m wide from the handle (−x) to
+/// the spout (+x) [Newell75]. As in the original, lid and rim do not touch, and handle
+/// and spout end inside the body.
 /// @param patchCellCount  cells along each side of a patch, at least 2
 Mesh makeTeapot(int patchCellCount);
 

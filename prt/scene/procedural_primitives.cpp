@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// The unit sphere from its pole at -z up to the height `top`, seen from outside: rows of
-// segmentCount vertices, each on the sphere with its own position as normal, and one vertex at a
-// pole.
+// The unit sphere from its pole at -z up to the height `top`, seen from outside:
+// rows of segmentCount vertices, each on the sphere with its own position as
+// normal, and one vertex at a pole.
 Mesh makeSphereCap(double top, int segmentCount) {
     PRT_ASSERT(segmentCount >= 3, "a sphere has at least three segments");
     const double highestLatitude = std::asin(top);

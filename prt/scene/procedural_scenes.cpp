@@ -56,8 +56,8 @@ Mesh makeQuad(const Quad& quad, int alongCount, int acrossCount) {
     return mesh;
 }
 
-// Three walls around a square floor, red to the left and green to the right, open to the front and
-// above.
+// Three walls around a square floor, red to the left and green to the
+// right, open to the front and above.
 void addWalls(Scene& scene, float halfWidth, float height, int cellsWide, int cellsHigh) {
     const Quad low = horizontalQuad(Vec3f(0.0f), 2.0f * halfWidth, 2.0f * halfWidth);
     const Vec3f up(0.0f, height, 0.0f);
@@ -90,8 +90,8 @@ Scene makeTeapotScene() {
     return scene;
 }
 
-// A block on a floor tile that leaves a hole for it, so that block and floor meet in the same
-// points.
+// A block on a floor tile that leaves a hole for it, so that block and
+// floor meet in the same points.
 struct Block {
     const char* name;
     Vec3f tileCenter;

@@ -17,8 +17,8 @@
 namespace prt {
 namespace {
 
-// The control points of a tube of patches: rows along it, columns around it, the last joining the
-// first.
+// The control points of a tube of patches: rows along it, columns around
+// it, the last joining the first.
 struct ControlNet {
     int columnCount = 0;
     int rowCount = 0;
@@ -35,8 +35,8 @@ struct ControlNet {
     }
 };
 
-// A point of a profile, and how far along the tangent the quarter circle through it has its inner
-// control point.
+// A point of a profile, and how far along the tangent the quarter circle through
+// it has its inner control point.
 struct ProfilePoint {
     double radius;
     double tangent;

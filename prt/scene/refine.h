@@ -9,8 +9,8 @@ struct RefineOptions {
     std::size_t maxVertexCount = 20'000'000;  ///< refuse to make more
 };
 
-/// One sixteenth of the radius of the scene's bounds: a floor as wide as the scene gets some 30 ×
-/// 30 cells.
+/// One sixteenth of the radius of the scene's bounds: a floor as wide as the
+/// scene gets some 30 × 30 cells.
 float defaultMaxEdgeLength(const Scene& scene);
 
 /// Splits every edge longer than the limit, so that large triangles can hold a shadow.

@@ -50,8 +50,8 @@ struct Material {
     bool doubleSided = false;
 };
 
-/// Triangles with one material, in world space: instances are flattened, each is a receiver of its
-/// own.
+/// Triangles with one material, in world space: instances are flattened,
+/// each is a receiver of its own.
 struct Mesh {
     std::string name;
     std::size_t material = 0;                  ///< index into Scene::materials
@@ -87,8 +87,8 @@ struct Scene {
     std::size_t triangleCount() const;
 };
 
-/// Where each mesh's vertices start in the scene-wide numbering (mesh after mesh); one entry more
-/// than meshes.
+/// Where each mesh's vertices start in the scene-wide numbering (mesh after
+/// mesh); one entry more than meshes.
 std::vector<std::size_t> vertexOffsets(const Scene& scene);
 
 /// Smallest axis-aligned box.

@@ -25,8 +25,8 @@ float wrapCoordinate(float coordinate, TextureWrap wrap) {
     return std::clamp(coordinate, 0.0f, 1.0f);
 }
 
-// The texel beside the edge of a wrapped image. At a mirror the edge texel meets itself, as at a
-// clamp.
+// The texel beside the edge of a wrapped image. At a mirror the edge
+// texel meets itself, as at a clamp.
 int wrapTexel(int texel, int size, TextureWrap wrap) {
     if (wrap == TextureWrap::repeat) return (texel + size) % size;
     return std::clamp(texel, 0, size - 1);
@@ -44,8 +44,8 @@ Vec4f sampleNearest(const Rgba8Image& image, float u, float v) {
     return decodeTexel(image.at(x, y));
 }
 
-// Blends the four texels around the point after decoding them: light adds linearly, code values do
-// not.
+// Blends the four texels around the point after decoding them: light
+// adds linearly, code values do not.
 Vec4f sampleLinear(const Rgba8Image& image, const TextureUse& texture, float u, float v) {
     const float x = u * static_cast<float>(image.width) - 0.5f;
     const float y = v * static_cast<float>(image.height) - 0.5f;
@@ -64,11 +64,14 @@ Vec4f sampleLinear(const Rgba8Image& image, const TextureUse& texture, float u, 
     return upper * (1.0f - toBottom) + lower * toBottom;
 }
 
-template <class Value>
-Value interpolate(const Mesh& mesh, const SurfacePoint& point, const std::vector<Value>& values) {
-    const std::uint32_t* corners = &mesh.indices[3 * point.triangle];
-    return values[corners[0]] * (1.0f - point.u - point.v) + values[corners[1]] * point.u +
-           values[corners[2]] * point.v;
+/// The texture where the surface has coordinates for it, white elsewhere.
+Vec4f sampleAt(const Scene& scene, const std::optional<TextureUse>& texture,
+               const SurfacePoint& point) {
+    if (!texture) return kWhite;
+    const Mesh& mesh = scene.meshes[point.mesh];
+    const std::span<const Vec2f> uvs = mesh.uvSets[texture->uvSet == 1 ? 1 : 0];
+    if (uvs.empty()) return kWhite;
+    return sampleTexture(scene, *texture, interpolateCorners(mesh, point, uvs));
 }
 
 // A reflectance; what is not a number becomes 0.
@@ -92,14 +95,17 @@ Vec4f evaluateBaseColor(const Scene& scene, const SurfacePoint& point) {
     PRT_ASSERT(point.triangle < mesh.triangleCount(), "the point lies on a triangle of the mesh");
     const Material& material = scene.materials[mesh.material];
     Vec4f color = material.baseColorFactor;
-    if (!mesh.colors.empty()) color *= interpolate(mesh, point, mesh.colors);
-    if (material.baseColorTexture) {
-        const TextureUse& texture = *material.baseColorTexture;
-        const std::vector<Vec2f>& uvs = mesh.uvSets[texture.uvSet == 1 ? 1 : 0];
-        if (!uvs.empty()) color *= sampleTexture(scene, texture, interpolate(mesh, point, uvs));
-    }
+    if (!mesh.colors.empty())
+        color *= interpolateCorners(mesh, point, std::span<const Vec4f>(mesh.colors));
+    color *= sampleAt(scene, material.baseColorTexture, point);
     return Vec4f(clampReflectance(color.x), clampReflectance(color.y), clampReflectance(color.z),
                  color.w);
+}
+
+Vec3f evaluateEmission(const Scene& scene, const SurfacePoint& point) {
+    const Material& material = scene.materials[scene.meshes[point.mesh].material];
+    const Vec4f texel = sampleAt(scene, material.emissiveTexture, point);
+    return material.emissiveFactor * Vec3f(texel.x, texel.y, texel.z);
 }
 
 bool isMasked(const Material& material) {

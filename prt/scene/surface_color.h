@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "prt/scene/scene.h"
 
 namespace prt {
@@ -12,12 +14,26 @@ struct SurfacePoint {
     float v = 0.0f;
 };
 
+/// A value given at the vertices of a mesh, linear in the triangle, and exactly constant where its
+/// corners agree.
+template <class Value>
+Value interpolateCorners(const Mesh& mesh, const SurfacePoint& point,
+                         std::span<const Value> values) {
+    const std::uint32_t* corners = &mesh.indices[3 * point.triangle];
+    const Value& origin = values[corners[0]];
+    return origin + (values[corners[1]] - origin) * point.u +
+           (values[corners[2]] - origin) * point.v;
+}
+
 /// Base colour with coverage: factor × vertex colour × texture, linear [glTF 2.0, 3.9.2]. rgb is
 /// the diffuse albedo.
 ///
-/// Textures must be decoded; an undecoded one counts as white. rgb is clamped to [0, 1], as a
-/// reflectance is.
+/// Textures must be decoded; an undecoded one counts as white. rgb is clamped
+/// to [0, 1], as a reflectance is.
 Vec4f evaluateBaseColor(const Scene& scene, const SurfacePoint& point);
+
+/// Emitted radiance: factor × texture, linear [glTF 2.0, 3.9.3], W·sr⁻¹·m⁻².
+Vec3f evaluateEmission(const Scene& scene, const SurfacePoint& point);
 
 /// One linear RGBA sample of a texture, with its wrap modes and filter.
 Vec4f sampleTexture(const Scene& scene, const TextureUse& texture, const Vec2f& uv);

@@ -7,8 +7,8 @@
 
 namespace prt {
 
-/// Groups vertices that receive the same light: equal in position and in normal, over the whole
-/// scene.
+/// Groups vertices that receive the same light: equal in position and
+/// in normal, over the whole scene.
 struct Welding {
     std::vector<std::uint32_t>
         groupOfVertex;  ///< one a vertex of the scene, numbered mesh after mesh

@@ -31,8 +31,8 @@ bool isTraceable(const Vec3f& vector) {
 
 std::string deviceConfig(const RaySceneOptions& options) {
     std::string config;
-    // Embree keeps a global limit of its own, which must never be above the cores nor below the
-    // caller's.
+    // Embree keeps a global limit of its own, which must never be above
+    // the cores nor below the caller's.
     if (options.threadCount > 0 && options.threadCount < resolveThreadCount(0))
         config += "threads=" + std::to_string(options.threadCount) + ",";
     if (options.isa) {

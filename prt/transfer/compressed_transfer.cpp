@@ -14,8 +14,8 @@ namespace {
 constexpr std::array<std::string_view, 3> kEncodingNames = {"float32", "unorm16", "unorm8"};
 constexpr std::array<std::size_t, 3> kEncodingBytes = {4, 2, 1};
 
-/// Decodes the integers of every receiver; in double, so that each result is the float nearest to
-/// what is meant.
+/// Decodes the integers of every receiver; in double, so that each result is the
+/// float nearest to what is meant.
 template <class Integer>
 void expandIntegers(const CompressedLayer& layer, double maxInteger, std::span<float> values) {
     const std::size_t rowLength = layer.scale.size();

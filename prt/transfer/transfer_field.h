@@ -21,8 +21,7 @@ std::optional<Transport> parseTransport(std::string_view name);
 
 /// Transfer vectors of one kind for every receiver.
 ///
-///   T_i(x) = (1/π) ∫ V(x, ω) max(⟨n, ω⟩, 0) y_i(ω) dω + bounces          [Sloan02, eq. 7;
-///   Dachsbacher]
+///   T_i(x) = (1/π) ∫ V(x, ω) max(⟨n, ω⟩, 0) y_i(ω) dω + bounces   [Sloan02, 7; Dachsbacher17]
 ///
 /// The receiver's own albedo is outside, every other surface's is inside (C6), so outgoing radiance
 /// is albedo(x) Σ_i T_i L_i (C7).

@@ -13,14 +13,14 @@ struct BounceOptions {
 };
 
 /// Adds the bounces to direct transfer: T = T⁽⁰⁾ + F T⁽⁰⁾ + F² T⁽⁰⁾ + …, where row x of F holds the
-/// albedo and the corner weights at what the rays of receiver x have hit [Sloan02, 5; Dachsbacher].
+/// albedo and the corner weights at what the rays of receiver x have hit [Sloan02, 5;
+/// Dachsbacher17].
 ///
 /// With kInfiniteBounces the series ends when a bounce's largest coefficient 0 is below 1e-6 of the
 /// direct one's, or after 10000 bounces.
 ///
 /// @param direct    [receiver][coefficient], one channel
-/// @param total     [receiver][channel][coefficient] of the first receivers, three channels,
-/// written
+/// @param total     written: [receiver][channel][coefficient] of the first receivers
 /// @return          the number of bounces made
 int addBounces(const HitMatrix& matrix, std::span<const float> direct, const GatherKernels& kernels,
                const BounceOptions& options, std::span<float> total);

@@ -42,9 +42,9 @@ inline std::uint32_t backReceiver(const Receivers& receivers, std::uint32_t fron
     return static_cast<std::uint32_t>(receivers.fronts.size()) + front;
 }
 
-/// Gathers light at receivers, one after the other: rays over the hemisphere, the sum of y_i over
-/// those that escape, and a row of the bounce matrix from those that do not. One of them serves one
-/// thread.
+/// Gathers light at receivers, one after the other: rays over the hemisphere, the sum
+/// of y_i over those that escape, and a row of the bounce matrix from those that do
+/// not. One of them serves one thread.
 class Gatherer {
   public:
     Gatherer(const GatherScene& scene, const GatherKernels& kernels, const SamplePattern& pattern,

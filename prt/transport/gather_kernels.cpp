@@ -230,8 +230,8 @@ SamplePattern::SamplePattern(std::size_t sampleCount)
 
 GatherKernels selectGatherKernels(Isa isa) {
     constexpr std::array<std::int64_t, 3> kTargets = {HWY_SSE4, HWY_AVX2, HWY_AVX3};
-    // The best compiled target that is no wider than asked for. Highway's lower bits are its wider
-    // targets.
+    // The best compiled target that is no wider than asked for. Highway's
+    // lower bits are its wider targets.
     hwy::ChosenTarget target;
     target.Update(hwy::SupportedTargets() & ~(kTargets[static_cast<std::size_t>(isa)] - 1));
     const std::size_t index = target.GetIndex();

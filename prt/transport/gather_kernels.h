@@ -11,8 +11,8 @@
 
 namespace prt {
 
-/// Vectors of all instruction sets divide this many lanes; arrays the kernels work on are padded to
-/// it.
+/// Vectors of all instruction sets divide this many lanes; arrays the
+/// kernels work on are padded to it.
 inline constexpr std::size_t kLaneMultiple = 16;
 
 constexpr std::size_t padToLanes(std::size_t count) {
@@ -35,16 +35,16 @@ struct ReceiverSampling {
     Vec3f normal{0.0f, 0.0f, 1.0f};
 };
 
-/// One element of the bounce matrix: how much of another receiver's transfer comes back from the
-/// hits near it.
+/// One element of the bounce matrix: how much of another receiver's transfer
+/// comes back from the hits near it.
 struct BounceEntry {
     std::uint32_t receiver = 0;
     Vec3f weight{0.0f, 0.0f,
                  0.0f};  ///< barycentric weight × albedo at the hit / samples, summed over hits
 };
 
-/// Transfer as the bounces see it: [receiver][channel][coefficient], each receiver padded to
-/// kLaneMultiple.
+/// Transfer as the bounces see it: [receiver][channel][coefficient], each
+/// receiver padded to kLaneMultiple.
 struct BounceTransfer {
     const float* values = nullptr;  ///< aligned to 64 bytes
     std::size_t coefficientCount = 0;

@@ -29,8 +29,7 @@ struct HitSlab {
 /// they are more than the memory allowed.
 class HitMatrix {
   public:
-    /// @param memoryBytes    for entries; slabs beyond it go to a file without a name in
-    /// scratchFolder
+    /// @param memoryBytes    for entries; slabs beyond it go to a nameless file in scratchFolder
     /// @param scratchFolder  empty: the system's folder for temporary files
     HitMatrix(std::size_t memoryBytes, std::filesystem::path scratchFolder);
     ~HitMatrix();
@@ -44,8 +43,8 @@ class HitMatrix {
     std::size_t rowCount() const { return rowCount_; }
     std::size_t entryBytes() const { return entryBytes_; }
 
-    /// Calls `visit` with one slab; may be called from many threads once all are added. @throws
-    /// Error unreadable
+    /// Calls `visit` with one slab; may be called from many threads once all are
+    /// added. @throws Error unreadable
     void visitSlab(std::size_t index, const std::function<void(const HitSlab&)>& visit) const;
 
   private:

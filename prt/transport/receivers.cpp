@@ -12,11 +12,11 @@
 namespace prt {
 namespace {
 
-// Surfaces further apart than this at a vertex are the two sides of a thin sheet, not the walls of
-// a corner.
+// Surfaces further apart than this at a vertex are the two sides of a thin
+// sheet, not the walls of a corner.
 constexpr float kOppositeCosine = -0.5f;
-// The mean direction to the surrounding triangles is near 0 inside a surface and near 1 at a sharp
-// rim.
+// The mean direction to the surrounding triangles is near 0 inside a
+// surface and near 1 at a sharp rim.
 constexpr float kRimThreshold = 0.4f;
 constexpr float kRimInset = 1e-3f;
 // Rim insets stay above the rounding of coordinates near 1, and inside their triangle.
@@ -86,8 +86,8 @@ struct Surroundings {
     bool doubleSided;
 };
 
-/// The geometric normal on the side of the shading normal, or of the winding where the surface is
-/// one-sided.
+/// The geometric normal on the side of the shading normal, or of the winding
+/// where the surface is one-sided.
 Vec3f geometricNormal(const Surroundings& surroundings, const Vec3f& shadingNormal) {
     Vec3f sum(0.0f);
     for (const std::uint32_t i : surroundings.own)

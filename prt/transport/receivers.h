@@ -29,8 +29,8 @@ struct Receivers {
     /// Those of a triangle's corners, mesh after mesh.
     std::vector<std::array<std::uint32_t, 3>> frontsOfTriangle;
 
-    /// The other sides, where the material is double-sided: back i lies behind front i. Empty if no
-    /// material is.
+    /// The other sides, where the material is double-sided: back i lies behind
+    /// front i. Empty if no material is.
     std::vector<Receiver> backs;
 };
 

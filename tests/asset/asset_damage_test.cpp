@@ -249,8 +249,8 @@ TEST(AssetDamage, FloatsThatAreNoCoefficientsAreRefusedEvenWithFittingChecksums)
                         TransferEncoding::float32);
 }
 
-// Three bands are nine coefficients in three attributes; the last three numbers of the third are
-// padding.
+// Three bands are nine coefficients in three attributes; the last three
+// numbers of the third are padding.
 TEST(AssetDamage, PaddingThatIsNotZeroIsRefused) {
     const ScratchFolder folder;
     const Scene scene = makeTwoGrids();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -186,6 +187,14 @@ TEST_F(FileTest, AFolderCannotBeWrittenAsAFile) {
     fs::create_directory(path("folder"));
 
     EXPECT_EQ(catchError([&] { checkWritable(path("folder")); }).code(), ErrorCode::writeFailed);
+}
+
+TEST_F(FileTest, ADeviceOrPipeIsNeverReplaced) {
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+
+    EXPECT_EQ(catchError([&] { writeFileAtomically(path("pipe"), "text"); }).code(),
+              ErrorCode::writeFailed);
+    EXPECT_TRUE(fs::is_fifo(path("pipe")));
 }
 
 }  // namespace

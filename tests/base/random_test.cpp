@@ -28,8 +28,8 @@ TEST(Conventions, C10_SameSeedAndStreamGiveTheSameBits) {
 }
 
 TEST(RandomStream, NeighbouringSeedsAndStreamsShareNoNumbers) {
-    // Of 40,000 numbers of 32 bits some 0.19 pairs coincide by chance; streams that overlap would
-    // give thousands.
+    // Of 40,000 numbers of 32 bits some 0.19 pairs coincide by chance; streams
+    // that overlap would give thousands.
     constexpr std::size_t kAllowedCoincidences = 3;
     constexpr std::size_t kNumbersPerStream = 1000;
     std::set<std::uint32_t> seen;

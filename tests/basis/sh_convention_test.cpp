@@ -77,8 +77,8 @@ TEST(ShConvention, TheSameSignsLeadBack) {
     }
 }
 
-// Two publications of the Grace Cathedral probe, from the same axes, differ by the phase and one
-// exposure.
+// Two publications of the Grace Cathedral probe, from the same axes, differ
+// by the phase and one exposure.
 TEST(ShConvention, LeadsFromOnePublishedGraceCathedralToTheOther) {
     constexpr double kPublishedRelativeError = 0.01;
     const std::vector<double> rh = {.78908,  .39499,  -.33974, -.29213, -.11141,

@@ -14,8 +14,8 @@
 namespace prt {
 namespace {
 
-// Values with Condon-Shortley phase at (1, 2, 3)/√14, printed with nine decimals (SciPy's
-// definition).
+// Values with Condon-Shortley phase at (1, 2, 3)/√14, printed with nine
+// decimals (SciPy's definition).
 constexpr std::array<double, 36> kPublishedValues = {
     0.282094792,  -0.261169028, 0.391753542,  -0.130584514, 0.156078347,  -0.468235042,
     0.292863596,  -0.234117521, -0.11705876,  0.022527969,  0.331092173,  -0.540952781,

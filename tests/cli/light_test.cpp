@@ -61,8 +61,8 @@ TEST_F(CliLight, AUniformLightIsItsFirstCoefficient) {
     EXPECT_EQ(rowCount, 9);
 }
 
-/// A directional light of unit irradiance has the basis functions of its direction as coefficients
-/// (C2).
+/// A directional light of unit irradiance has the basis functions of its
+/// direction as coefficients (C2).
 TEST_F(CliLight, ASunHasTheValuesOfTheBasisInItsDirection) {
     const Json alongZ = coefficients({"sun:90,0,0", "--bands", "2"});
     const Json up = coefficients({"sun:0,90,0", "--bands", "2"});
@@ -147,8 +147,8 @@ TEST_F(CliLight, MendedTexelsAreCountedInAWarning) {
 }
 
 TEST_F(CliLight, ALayoutCanBeForced) {
-    // A square image is taken as an angular map, half of whose corners show nothing; a strip it is
-    // not.
+    // A square image is taken as an angular map, half of whose corners
+    // show nothing; a strip it is not.
     writeExr(folder.path() / "square.exr", Image(16, 16, Vec3f(1.0f)));
     EXPECT_NEAR(coefficients({"square.exr"})[0][0].get<double>(), 2.0 * std::sqrt(std::numbers::pi),
                 1e-6);

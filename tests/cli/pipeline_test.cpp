@@ -82,8 +82,8 @@ TEST_F(BakedScene, RendersAPictureOfTheSizeAskedFor) {
     EXPECT_EQ(picture.height, 54);
 }
 
-/// Uniform light of radiance 1 is seen as 1 behind the scene, and no unshadowed surface sends out
-/// more than it.
+/// Uniform light of radiance 1 is seen as 1 behind the scene, and no unshadowed
+/// surface sends out more than it.
 TEST_F(BakedScene, ExrHoldsLinearRadiance) {
     run({"render", "scene.prt.glb", "--light", "uniform:1,2,4", "-o", "a.exr", "--size", "64x36",
          "--background", "--eye", "0,1,8", "--target", "0,1,0", "--transport", "unshadowed"});

@@ -19,8 +19,8 @@ namespace {
 constexpr int kDataAtFault = 1;
 constexpr int kWrongUsage = 2;
 
-/// Runs prt, which must fail with one line that holds all the words, and leave no file but those
-/// that lay there.
+/// Runs prt, which must fail with one line that holds all the words, and leave no
+/// file but those that lay there.
 void expectOneSentence(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                        int exitCode, const std::vector<std::string>& words) {
     const std::ptrdiff_t fileCount = folder.fileCount();

@@ -252,8 +252,8 @@ TEST(GltfAccessor, VertexColoursMayBeFloatsBytesOrShorts) {
 }
 
 TEST(GltfAccessor, AMatrixHasItsColumnsPaddedToFourBytes) {
-    // MAT2 of bytes: columns (1, 2) and (3, 4), each but the file's last followed by two bytes of
-    // padding.
+    // MAT2 of bytes: columns (1, 2) and (3, 4), each but the file's last
+    // followed by two bytes of padding.
     GltfBuilder builder = makeTriangleFile();
     const std::vector<std::uint8_t> padded = {1, 2, 0, 0, 3, 4, 0, 0, 5, 6, 0, 0, 7, 8};
     const auto matrices = builder.addArray(padded, "MAT2", 2);

@@ -178,8 +178,8 @@ inline GltfBuilder makeTetrahedronFile(Json node = Json::object()) {
     return builder;
 }
 
-/// The volume that a closed mesh encloses; negative if its triangles are clockwise seen from
-/// outside.
+/// The volume that a closed mesh encloses; negative if its triangles
+/// are clockwise seen from outside.
 inline double signedVolume(const Mesh& mesh) {
     double volume = 0.0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A small file in which every part is used: sparse and interleaved accessors, a texture, a camera,
-/// a hierarchy.
+/// A small file in which every part is used: sparse and interleaved accessors, a
+/// texture, a camera, a hierarchy.
 GltfBuilder makeFullFile() {
     GltfBuilder builder;
     const std::vector<float> vertices = {0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0,
@@ -142,8 +142,8 @@ TEST(GltfHostile, EveryByteChangeOfATextFileIsSafe) {
     expectEveryByteChangeIsSafe({bytes.begin(), bytes.end()});
 }
 
-/// Calls `visit` with a copy of the file for each member and element of its JSON, and the pointer
-/// to it.
+/// Calls `visit` with a copy of the file for each member and element of
+/// its JSON, and the pointer to it.
 template <class Visit>
 void forEachValue(const GltfBuilder& whole, Visit visit) {
     const Json flat = whole.json.flatten();

@@ -119,8 +119,8 @@ TEST(GltfNodes, MirroredInstancesStayCounterClockwise) {
 }
 
 TEST(GltfNodes, NormalsStayPerpendicularAndOutsideUnderAnyScale) {
-    // A triangle in the plane x + y + z = 1 with its normal; sheared, squeezed and mirrored by a
-    // matrix.
+    // A triangle in the plane x + y + z = 1 with its normal; sheared,
+    // squeezed and mirrored by a matrix.
     const std::vector<Json> matrices = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
                                         {5, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.2, 0, 1, 2, 3, 1},
                                         {-2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},

@@ -139,8 +139,8 @@ TEST(SphereMap, NeighboursInACrossAreNeighboursOnTheSphere) {
                     const SphereTexel next = sphereTexel(map, width, height, x + stepX, y + stepY);
                     if (texel.solidAngle == 0.0 || next.solidAngle == 0.0) continue;
                     const int column = (x + stepX) / kFaceSize, row = (y + stepY) / kFaceSize;
-                    // The outer cells of a cross touch empty cells only, so every such pair shares
-                    // an edge.
+                    // The outer cells of a cross touch empty cells only, so every
+                    // such pair shares an edge.
                     EXPECT_LT(angleBetween(texel.direction, next.direction), kLargestStep)
                         << sphereMapName(map) << " cell " << column << ", " << row;
                     ++pairCount;
@@ -216,8 +216,8 @@ TEST(SphereMap, SolidAnglesSumToTheSphere) {
                 << sphereMapName(shape.map) << " " << cellSize;
         }
     }
-    // An angular map loses the parts of texels whose centre is outside, where little of the sphere
-    // is.
+    // An angular map loses the parts of texels whose centre is outside,
+    // where little of the sphere is.
     EXPECT_NEAR(sumSolidAngles({SphereMap::angularMap, 1, 1}, 64) / (4.0 * kPi), 1.0, 5e-4);
     EXPECT_NEAR(sumSolidAngles({SphereMap::angularMap, 1, 1}, 256) / (4.0 * kPi), 1.0, 5e-5);
 }

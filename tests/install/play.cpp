@@ -18,8 +18,8 @@ int main(int argumentCount, char** arguments) {
         std::vector<prt::Vec3f> radiance(relighter.receiverCount());
         relighter.relight(whiteSky, radiance);
 
-        // A point of white sky's radiance sees nothing but sky; a shadow is darker, and no point is
-        // brighter.
+        // A point of white sky's radiance sees nothing but sky; a shadow is
+        // darker, and no point is brighter.
         const auto byGreen = [](const prt::Vec3f& a, const prt::Vec3f& b) { return a.y < b.y; };
         const auto [darkest, brightest] =
             std::minmax_element(radiance.begin(), radiance.end(), byGreen);

@@ -163,8 +163,8 @@ TEST(Exr, FloatsComeBackBitForBit) {
 }
 
 TEST(Exr, EveryCompressionIsRead) {
-    // PXR24 keeps 24 bits of a float, B44 a sixth significant bit fewer than a half, DWA what the
-    // eye sees of one.
+    // PXR24 keeps 24 bits of a float, B44 a sixth significant bit fewer than a
+    // half, DWA what the eye sees of one.
     const std::vector<std::pair<Imf::Compression, float>> compressions = {
         {Imf::NO_COMPRESSION, 0.0f},    {Imf::RLE_COMPRESSION, 0.0f},
         {Imf::ZIPS_COMPRESSION, 0.0f},  {Imf::ZIP_COMPRESSION, 0.0f},

@@ -43,6 +43,16 @@ TEST(LightingJson, OtherConventionsAreTurnedIntoOurs) {  // C2
     EXPECT_EQ(read("cs").coefficients[1], Vec3d(2.0));
 }
 
+TEST(LightingJson, WhatIsWrittenInAnotherConventionIsReadAsOurs) {
+    Lighting lighting(3);
+    for (std::size_t i = 0; i < lighting.coefficients.size(); ++i)
+        lighting.coefficients[i] = Vec3d(static_cast<double>(i) + 1.0);
+    const std::string text = lightingToJson(lighting, ShConvention::rh);
+    EXPECT_NE(text.find("\"convention\": \"rh\""), std::string::npos);
+    EXPECT_NE(text.find("-2.0"), std::string::npos) << "the signs are those of the convention";
+    EXPECT_EQ(lightingFromJson(text, "test").coefficients, lighting.coefficients);
+}
+
 TEST(LightingJson, WrongTextsAreMalformed) {
     const std::vector<std::string> texts = {
         "",

@@ -75,8 +75,8 @@ TEST(Png, FormatIsToldByContent) {
 TEST(Png, EveryPrefixIsRefusedAndEveryChangeIsSurvived) {
     const std::string file =
         PngBytes{.width = 2, .height = 2, .rows = std::string(14, '\0')}.file();
-    // All of the picture is there once the last chunk is named; its empty data and checksum say
-    // nothing.
+    // All of the picture is there once the last chunk is named; its empty
+    // data and checksum say nothing.
     constexpr std::size_t kIgnoredEndBytes = 4;
     EXPECT_LE(test::readDamaged(file, decode), kIgnoredEndBytes);
 }

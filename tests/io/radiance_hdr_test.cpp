@@ -18,8 +18,8 @@ Image readBytes(const std::string& bytes) {
     return decodeRadianceHdr(test::asBytes(bytes), "image.hdr", {});
 }
 
-/// A row of 10 pixels: red a run of 128, green a dump of 1 … 10, blue two runs, all with the
-/// exponent 129.
+/// A row of 10 pixels: red a run of 128, green a dump of 1 … 10, blue two
+/// runs, all with the exponent 129.
 std::string runLengthRow() {
     std::string row("\x02\x02\x00\x0a", 4);
     row += "\x8a\x80";

@@ -78,9 +78,9 @@ Error catchError(Call call) {
     return Error(ErrorCode::cancelled, "none");
 }
 
-/// Reads every prefix of a file and every change of one of its bytes (to all other values of a
-/// short file, to eight others of a longer one). Each must be read or end in an Error, never
-/// anything else.
+/// Reads every prefix of a file and every change of one of its bytes (to all other
+/// values of a short file, to eight others of a longer one). Each must be read or end
+/// in an Error, never anything else.
 ///
 /// @return  how many prefixes shorter than the file were read without an error
 inline std::size_t readDamaged(const std::string& file,

@@ -84,8 +84,8 @@ TEST(DiscLighting, IsTheIntegralOverTheDisc) {
 }
 
 TEST(SunLighting, GivesUnitIrradianceWhateverItsSize) {
-    // Irradiance of the untruncated light is Σ A_l L_l0 y_l0 over all degrees; 400 leave 1e-4 of
-    // the tail.
+    // Irradiance of the untruncated light is Σ A_l L_l0 y_l0 over all
+    // degrees; 400 leave 1e-4 of the tail.
     constexpr int kBandCount = 400;
     constexpr double kTail = 1e-4;
     const auto cosine = clampedCosineZonal(kBandCount);
@@ -114,8 +114,8 @@ TEST(SunLighting, BecomesADirectionalLightAsItShrinks) {
     }
 }
 
-// Truncated to n bands, the light that gives exit radiance 1 to a facing surface is stronger by
-// these factors.
+// Truncated to n bands, the light that gives exit radiance 1 to a facing
+// surface is stronger by these factors.
 TEST(SunLighting, ExitRadianceAfterTruncationIsThePublishedOne) {
     const struct {
         int bandCount;

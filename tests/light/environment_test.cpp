@@ -25,8 +25,8 @@ constexpr Shape kShapes[] = {{SphereMap::latLong, 2, 1},       {SphereMap::angul
                              {SphereMap::verticalCross, 3, 4}, {SphereMap::horizontalCross, 4, 3},
                              {SphereMap::verticalStrip, 1, 6}, {SphereMap::horizontalStrip, 6, 1}};
 
-/// Draws a function of direction; what a map does not show stays NaN, so that its use would be
-/// seen.
+/// Draws a function of direction; what a map does not show stays NaN,
+/// so that its use would be seen.
 template <class Function>
 Environment draw(const Shape& shape, int cellSize, Function radiance) {
     const int width = shape.columnCount * cellSize, height = shape.rowCount * cellSize;
@@ -57,8 +57,8 @@ TEST(ProjectLighting, AConstantEnvironmentHasItsMeanAndNothingElse) {
                 draw(shape, cellSize, [](const Vec3d&) { return Vec3f(1, 2, 0.5f); }), 5);
             const Vec3d mean = Vec3d(1, 2, 0.5) * (2.0 * std::sqrt(kPi));
             EXPECT_NEAR((lighting.coefficients[0] - mean).length(), 0.0, kRounding);
-            // Texels of the other maps count at their centre, which leaves the square of their
-            // size.
+            // Texels of the other maps count at their centre, which
+            // leaves the square of their size.
             const double rest =
                 shape.map == SphereMap::latLong ? kRounding : 24.0 / (cellSize * cellSize);
             for (std::size_t i = 1; i < 25; ++i) {

@@ -17,8 +17,8 @@ constexpr int kSampleCount = 1 << 16;
 // Four standard errors of a mean of 65536 values of variance at most 1.
 constexpr double kMeanTolerance = 4.0 / 256.0;
 
-/// Whether 2^k points have one in each box of every subdivision into 2^a × 2^(k−a) boxes: a (0, k,
-/// 2)-net.
+/// Whether 2^k points have one in each box of every subdivision into 2^a ×
+/// 2^(k−a) boxes: a (0, k, 2)-net.
 bool isNet(const std::vector<SquareBits>& points, int k) {
     for (int a = 0; a <= k; ++a) {
         std::set<std::pair<std::uint32_t, std::uint32_t>> boxes;
@@ -69,8 +69,8 @@ TEST(Sampling, UnitFloatsLieInsideTheInterval) {
     EXPECT_NE(unitFloatFromBits(0x80000000u), 0.5f);
 }
 
-/// Counts of directions in cells of equal measure, which must all be alike; chi-square against
-/// uniform.
+/// Counts of directions in cells of equal measure, which must all be
+/// alike; chi-square against uniform.
 double chiSquare(const std::vector<int>& counts, int total) {
     const double expected = static_cast<double>(total) / static_cast<double>(counts.size());
     double sum = 0.0;

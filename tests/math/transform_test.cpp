@@ -66,8 +66,8 @@ TEST(Transform, NormalsStayPerpendicularUnderAnyLinearMap) {
 
 TEST(Transform, AMirroredInstanceKeepsItsOutsideOutside) {
     const Mat3d mirror(-1, 0, 0, 0, 1, 0, 0, 0, 1);
-    // det < 0: the cofactors point against the mirrored geometric normal of the plain inverse
-    // transpose.
+    // det < 0: the cofactors point against the mirrored geometric normal
+    // of the plain inverse transpose.
     expectNear(normalMatrix(mirror) * kY, -kY);
     expectNear(normalMatrix(mirror) * kX, kX);
 }

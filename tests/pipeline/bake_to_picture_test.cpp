@@ -119,8 +119,8 @@ TEST(Pipeline, TurningObjectAndLightTogetherChangesNothing) {  // T-15, A16
         relightThroughAsset(turned, options, TransferEncoding::float32, rotate(sun, rotation));
     double squares = 0.0;
     for (std::size_t i = 0; i < reference.size(); ++i) {
-        // Two estimates of 4096 rays each; the sharpest edge of visibility moves one by a
-        // hundredth.
+        // Two estimates of 4096 rays each; the sharpest edge of
+        // visibility moves one by a hundredth.
         EXPECT_NEAR(reference[i].x, result[i].x, 2.5e-2) << "vertex " << i;
         squares += static_cast<double>((reference[i] - result[i]).length2());
     }

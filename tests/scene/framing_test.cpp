@@ -18,8 +18,8 @@ void expectOrthonormal(const Camera& camera) {
     EXPECT_NEAR(camera.forward.dot(camera.up), 0.0f, kFrameTolerance);
 }
 
-// Where a point lies in the picture: -1 to 1 from the left to the right edge and from the bottom to
-// the top.
+// Where a point lies in the picture: -1 to 1 from the left to the right edge
+// and from the bottom to the top.
 Vec2f project(const Camera& camera, float aspectRatio, const Vec3f& point) {
     const Vec3f toPoint = point - camera.eye;
     const float depth = toPoint.dot(camera.forward);

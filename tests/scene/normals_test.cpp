@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kRounding = 1.2e-7f;  // one unit in the last place of a coordinate near 1
 
-// The cube [-1, 1]³ with eight vertices; bit i of `diagonals` says along which diagonal face i is
-// cut.
+// The cube [-1, 1]³ with eight vertices; bit i of `diagonals` says
+// along which diagonal face i is cut.
 Mesh makeCube(unsigned diagonals) {
     constexpr std::uint32_t kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                             {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};

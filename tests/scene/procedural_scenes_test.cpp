@@ -63,8 +63,8 @@ INSTANTIATE_TEST_SUITE_P(All, EveryProceduralScene,
                          testing::ValuesIn(proceduralScenes().begin(), proceduralScenes().end()),
                          testName);
 
-// Surfaces that touch share their points to the last bit: nothing is open but the rim that is meant
-// to be.
+// Surfaces that touch share their points to the last bit: nothing is open
+// but the rim that is meant to be.
 void expectOpenOnlyWhere(const Scene& scene, const std::function<bool(const Vec3f&)>& isOnRim) {
     const auto open = findOpenEdges(scene);
     EXPECT_FALSE(open.empty());

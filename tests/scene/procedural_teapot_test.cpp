@@ -219,8 +219,8 @@ TEST(Teapot, PatchesJoinWithoutACrack) {
         const Scene scene = sceneOf({makeTeapot(cellCount)});
         EXPECT_EQ(scene.triangleCount(),
                   static_cast<std::size_t>(64 * cellCount * cellCount - 8 * cellCount));
-        // Open are only the rim and the lid's lip, four patches round, and both ends of handle and
-        // spout, two.
+        // Open are only the rim and the lid's lip, four patches round, and both
+        // ends of handle and spout, two.
         EXPECT_EQ(findOpenEdges(scene).size(),
                   static_cast<std::size_t>((4 + 4 + 2 * 2 + 2 * 2) * cellCount));
     }

@@ -29,8 +29,8 @@ Vec4f decode(const Rgba8& texel) {
                  static_cast<float>(texel.alpha) / 255.0f);
 }
 
-// One triangle whose corners have the UVs (0, 0), (1, 0), (0, 1), so that a point's (u, v) is its
-// UV.
+// One triangle whose corners have the UVs (0, 0), (1, 0), (0, 1), so
+// that a point's (u, v) is its UV.
 Scene makeTexturedTriangle(const Rgba8Image& image) {
     Mesh mesh;
     mesh.positions = {Vec3f(0.0f), Vec3f(1.0f, 0.0f, 0.0f), Vec3f(0.0f, 1.0f, 0.0f)};
@@ -128,8 +128,8 @@ TEST(SampleTexture, BlendsLightNotCodeValuesAndAlphaLinearly) {
     image.at(1, 0) = {255, 188, 255, 128};
     const Scene scene = makeTexturedTriangle(image);
     const Vec4f between = sampleTexture(scene, {}, Vec2f(0.5f, 0.5f));
-    // Half the linear light of sRGB white, and of code value 188, which is 0.5028865 [IEC
-    // 61966-2-1].
+    // Half the linear light of sRGB white, and of code value 188,
+    // which is 0.5028865 [IEC 61966-2-1].
     expectNear(between, Vec4f(0.5f, 0.5f * 0.5028865f, 0.5f, 0.5f * 128.0f / 255.0f));
 }
 

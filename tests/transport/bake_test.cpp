@@ -20,8 +20,8 @@ using test::makeQuad;
 using test::transformScene;
 
 constexpr Vec3f kUp(0.0f, 0.0f, 1.0f);
-// Four standard errors of a mean of 4096 scrambled net points over a visibility edge: about
-// N^(−3/4).
+// Four standard errors of a mean of 4096 scrambled net points over a
+// visibility edge: about N^(−3/4).
 constexpr double kQmcTolerance = 4e-3;
 // Exit radiance of unit radiance from everywhere: L_00 = √(4π).
 const double kWhiteSky = std::sqrt(4.0 * std::numbers::pi);
@@ -228,8 +228,8 @@ TEST_F(BowlTest, EveryBounceOfEveryBandHasItsClosedForm) {  // A13, T-17, C8
                         static_cast<double>(transferVector(field, bounced, receiver, 1)[i]) -
                         static_cast<double>(transferVector(field, direct, receiver, 0)[i]);
                     sum += indirect;
-                    // One receiver: 512 rays to a smooth field, where the facets hide up to 2 % of
-                    // it.
+                    // One receiver: 512 rays to a smooth field, where the facets
+                    // hide up to 2 % of it.
                     ASSERT_NEAR(indirect, expected, 8e-3)
                         << "l " << l << " m " << m << " bounces " << bounceCount;
                 }
@@ -297,8 +297,8 @@ TEST(BakeInterreflected, EachBounceAddsLightAndNeverMoreThanAlbedoAllows) {  // 
 }
 
 TEST(BakeInterreflected, ColourBleedsFromTheOtherSurfaceOnly) {  // C6
-    // A white floor beside a wall that is red: the floor's own albedo is not in its transfer, the
-    // wall's is.
+    // A white floor beside a wall that is red: the floor's own albedo is not
+    // in its transfer, the wall's is.
     const auto bake = [](const Vec3f& floorAlbedo, const Vec3f& wallAlbedo) {
         const Scene scene =
             assembleScene({{makePatch({0.5f, 0, 0}, kUp, 1e-2f), floorAlbedo},
@@ -416,8 +416,8 @@ TEST(Bake, ResultsDoNotDependOnSizeOrPlace) {
         }
         EXPECT_LT(std::sqrt(squares / static_cast<double>(scene.vertexCount())), tolerance) << what;
     };
-    // Powers of two change no bit; other factors round, which moves rays by 1e-7 and flips few of
-    // them.
+    // Powers of two change no bit; other factors round, which moves rays
+    // by 1e-7 and flips few of them.
     expectSame(transformScene(scene, Mat3d(), 1.0 / 1024.0, Vec3f(0.0f)), 1e-9, "2^-10 times");
     expectSame(transformScene(scene, Mat3d(), 1.0, Vec3f(131072.0f, 0.0f, -131072.0f)), 1e-9,
                "2^17 away");
