@@ -19,14 +19,11 @@ Vec3f midpointOf(const Vec3f& a, const Vec3f& b) {
     return a * 0.5f + b * 0.5f;
 }
 
-// Whether an edge is too long and can be cut: where floats are too coarse for that, its middle
-// falls on or near an end.
-bool isSplit(const Vec3f& a, const Vec3f& b, float maxEdgeLength) {
+// Where floats are too coarse to halve an edge, its middle falls on or near an end.
+bool canBeHalved(const Vec3f& a, const Vec3f& b) {
     constexpr float kLargestPart = 0.75f;
-    const float length = (a - b).length();
-    if (!(length > maxEdgeLength)) return false;
     const Vec3f middle = midpointOf(a, b);
-    return std::max((middle - a).length(), (middle - b).length()) < kLargestPart * length;
+    return std::max((middle - a).length(), (middle - b).length()) < kLargestPart * (a - b).length();
 }
 
 Vec3f midNormal(const Vec3f& a, const Vec3f& b) {
@@ -34,25 +31,25 @@ Vec3f midNormal(const Vec3f& a, const Vec3f& b) {
     return sum.length() > 0.0f ? sum.normalized() : a;
 }
 
-// Cuts the triangles of one mesh, once for each pass.
+// Cuts the triangles of one mesh.
 class EdgeSplitter {
   public:
-    EdgeSplitter(Mesh& mesh, float maxEdgeLength, std::size_t maxNewVertexCount)
-        : mesh_(mesh), maxEdgeLength_(maxEdgeLength), maxNewVertexCount_(maxNewVertexCount) {}
+    EdgeSplitter(std::vector<Mesh>& meshes, std::size_t meshIndex, const EdgePredicate& isPicked,
+                 std::size_t maxNewVertexCount, std::vector<SplitEdge>& splitEdges)
+        : meshIndex_(meshIndex),
+          mesh_(meshes[meshIndex]),
+          isPicked_(isPicked),
+          maxNewVertexCount_(maxNewVertexCount),
+          splitEdges_(splitEdges) {}
 
-    // Halves every edge that is too long. Returns whether there was one.
-    bool splitOnce() {
-        middles_.clear();
+    void split() {
         std::vector<std::uint32_t> indices = std::move(mesh_.indices);
         mesh_.indices.clear();
         mesh_.indices.reserve(indices.size());
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
             splitTriangle({indices[i], indices[i + 1], indices[i + 2]});
         }
-        return !middles_.empty();
     }
-
-    std::size_t newVertexCount() const { return newVertexCount_; }
 
   private:
     void splitTriangle(const Triangle& triangle) {
@@ -111,20 +108,25 @@ class EdgeSplitter {
 
     // The vertex in the middle of an edge, made when first asked for, or kNotSplit.
     std::uint32_t middleOfEdge(std::uint32_t a, std::uint32_t b) {
-        if (!isSplit(mesh_.positions[a], mesh_.positions[b], maxEdgeLength_)) return kNotSplit;
+        const Vec3f& positionA = mesh_.positions[a];
+        const Vec3f& positionB = mesh_.positions[b];
+        if (!isPicked_(positionA, positionB) || !canBeHalved(positionA, positionB))
+            return kNotSplit;
         const std::uint64_t edge = (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
         const auto [entry, isNew] =
             middles_.try_emplace(edge, static_cast<std::uint32_t>(mesh_.vertexCount()));
-        if (isNew) addMiddle(std::min(a, b), std::max(a, b));
+        if (isNew) {
+            addMiddle(std::min(a, b), std::max(a, b));
+            splitEdges_.push_back({meshIndex_, std::min(a, b), std::max(a, b), entry->second});
+        }
         return entry->second;
     }
 
     void addMiddle(std::uint32_t a, std::uint32_t b) {
-        if (newVertexCount_ >= maxNewVertexCount_ || mesh_.vertexCount() >= kNotSplit) {
+        if (middles_.size() > maxNewVertexCount_ || mesh_.vertexCount() >= kNotSplit) {
             throw Error(ErrorCode::limitExceeded, "refining the scene makes too many vertices", {},
                         "allow longer edges or more vertices");
         }
-        ++newVertexCount_;
         mesh_.positions.push_back(midpointOf(mesh_.positions[a], mesh_.positions[b]));
         if (!mesh_.normals.empty())
             mesh_.normals.push_back(midNormal(mesh_.normals[a], mesh_.normals[b]));
@@ -135,11 +137,12 @@ class EdgeSplitter {
             mesh_.colors.push_back(mesh_.colors[a] * 0.5f + mesh_.colors[b] * 0.5f);
     }
 
+    std::size_t meshIndex_;
     Mesh& mesh_;
-    float maxEdgeLength_;
+    const EdgePredicate& isPicked_;
     std::size_t maxNewVertexCount_;
-    std::size_t newVertexCount_ = 0;
-    std::unordered_map<std::uint64_t, std::uint32_t> middles_;  // of the edges cut in this pass
+    std::vector<SplitEdge>& splitEdges_;
+    std::unordered_map<std::uint64_t, std::uint32_t> middles_;
 };
 
 }  // namespace
@@ -156,17 +159,27 @@ Scene refineEdges(const Scene& scene, const RefineOptions& options) {
     }
     const float maxEdgeLength =
         options.maxEdgeLength > 0.0f ? options.maxEdgeLength : defaultMaxEdgeLength(scene);
+    const auto isTooLong = [&](const Vec3f& a, const Vec3f& b) {
+        return (a - b).length() > maxEdgeLength;
+    };
     Scene refined = scene;
-    std::size_t vertexCount = scene.vertexCount();
-    for (Mesh& mesh : refined.meshes) {
-        const std::size_t allowed =
-            options.maxVertexCount - std::min(options.maxVertexCount, vertexCount);
-        EdgeSplitter splitter(mesh, maxEdgeLength, allowed);
-        while (splitter.splitOnce()) {
-        }
-        vertexCount += splitter.newVertexCount();
+    while (!splitEdges(refined.meshes, isTooLong, options.maxVertexCount).empty()) {
     }
     return refined;
+}
+
+std::vector<SplitEdge> splitEdges(std::vector<Mesh>& meshes, const EdgePredicate& isPicked,
+                                  std::size_t maxVertexCount) {
+    std::size_t vertexCount = 0;
+    for (const Mesh& mesh : meshes)
+        vertexCount += mesh.vertexCount();
+    std::vector<SplitEdge> edges;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const std::size_t made = vertexCount + edges.size();
+        const std::size_t allowed = maxVertexCount - std::min(maxVertexCount, made);
+        EdgeSplitter(meshes, i, isPicked, allowed, edges).split();
+    }
+    return edges;
 }
 
 }  // namespace prt

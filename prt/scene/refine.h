@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "prt/scene/scene.h"
 
 namespace prt {
@@ -23,5 +25,24 @@ float defaultMaxEdgeLength(const Scene& scene);
 ///
 /// @throws Error  limitExceeded when more than maxVertexCount vertices would be made
 Scene refineEdges(const Scene& scene, const RefineOptions& options = {});
+
+/// Whether to halve the edge between two positions. For no cracks to open it must not depend on
+/// their order.
+using EdgePredicate = std::function<bool(const Vec3f& a, const Vec3f& b)>;
+
+/// An edge of a mesh, and the vertex that now stands in its middle.
+struct SplitEdge {
+    std::size_t mesh = 0;
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+    std::uint32_t middle = 0;
+};
+
+/// Halves, once, every edge that is picked and that floats are fine enough to halve. Vertices keep
+/// their numbers; new ones stand after them.
+///
+/// @throws Error  limitExceeded when the meshes would come to more than maxVertexCount vertices
+std::vector<SplitEdge> splitEdges(std::vector<Mesh>& meshes, const EdgePredicate& isPicked,
+                                  std::size_t maxVertexCount = RefineOptions{}.maxVertexCount);
 
 }  // namespace prt

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "prt/scene/procedural.h"
-#include "tests/scene/mesh_measures.h"
+#include "tests/support/mesh_measures.h"
 
 namespace prt {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "prt/base/error.h"
 #include "prt/scene/procedural.h"
-#include "tests/scene/mesh_measures.h"
+#include "tests/support/mesh_measures.h"
 
 namespace prt {
 namespace {

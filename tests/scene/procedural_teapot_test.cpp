@@ -6,7 +6,7 @@
 
 #include "prt/scene/normals.h"
 #include "prt/scene/procedural.h"
-#include "tests/scene/mesh_measures.h"
+#include "tests/support/mesh_measures.h"
 
 namespace prt {
 namespace {

@@ -8,7 +8,7 @@
 #include "prt/base/error.h"
 #include "prt/base/random.h"
 #include "prt/scene/procedural.h"
-#include "tests/scene/mesh_measures.h"
+#include "tests/support/mesh_measures.h"
 
 namespace prt {
 namespace {
@@ -39,19 +39,6 @@ std::vector<Mesh> splitApart(const Mesh& mesh) {
 double distanceToSegment(const Vec3d& point, const Vec3d& a, const Vec3d& b) {
     const double t = (point - a).dot(b - a) / (b - a).length2();
     return (point - (a + (b - a) * std::min(1.0, std::max(0.0, t)))).length();
-}
-
-double smallestAngleDegrees(const Scene& scene) {
-    double smallest = 180.0;
-    forEachTriangle(scene, [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-        for (const auto& [p, q, r] :
-             {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
-            smallest =
-                std::min(smallest, std::atan2((q - p).cross(r - p).length(), (q - p).dot(r - p)) *
-                                       57.29577951308232);
-        }
-    });
-    return smallest;
 }
 
 TEST(Refine, NoEdgeIsLongerThanTheLimit) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "prt/scene/procedural.h"
-#include "tests/scene/mesh_measures.h"
+#include "tests/support/mesh_measures.h"
 
 namespace prt {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "prt/base/random.h"
 #include "prt/image/tone_curve.h"
-#include "tests/scene/mesh_measures.h"
+#include "tests/support/mesh_measures.h"
 
 namespace prt {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "prt/base/random.h"
 #include "prt/scene/procedural.h"
-#include "tests/scene/mesh_measures.h"
+#include "tests/support/mesh_measures.h"
 
 namespace prt {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -55,6 +56,19 @@ inline double longestEdge(const Scene& scene) {
         longest = std::max({longest, (b - a).length(), (c - b).length(), (a - c).length()});
     });
     return longest;
+}
+
+inline double smallestAngleDegrees(const Scene& scene) {
+    double smallest = 180.0;
+    forEachTriangle(scene, [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+        for (const auto& [p, q, r] :
+             {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
+            smallest =
+                std::min(smallest, std::atan2((q - p).cross(r - p).length(), (q - p).dot(r - p)) *
+                                       57.29577951308232);
+        }
+    });
+    return smallest;
 }
 
 /// The edges, by position to the last bit, that are not run through equally often in both
