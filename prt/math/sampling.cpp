@@ -29,15 +29,9 @@ std::uint32_t owenScramble(std::uint32_t bits, std::uint32_t seed) {
 }
 
 Vec3f sampleCosineHemisphere(float u, float v) {
-    const float a = 2.0f * u - 1.0f;
-    const float b = 2.0f * v - 1.0f;
-    const bool steep = std::abs(b) > std::abs(a);
-    const float radius = steep ? b : a;
-    const float angle = std::numbers::pi_v<float> / 4.0f * (steep ? a / b : b / a);
-    const float along = radius * std::cos(angle);
-    const float across = radius * std::sin(angle);
-    const float height = std::sqrt(std::max(0.0f, 1.0f - radius * radius));
-    return steep ? Vec3f(across, along, height) : Vec3f(along, across, height);
+    const float radius = std::sqrt(u);
+    const float phi = std::numbers::pi_v<float> * (2.0f * v - 1.0f);
+    return {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(1.0f - u)};
 }
 
 float cosineHemispherePdf(const Vec3f& direction) {

@@ -39,8 +39,10 @@ constexpr float unitFloatFromBits(std::uint32_t bits) {
     return (static_cast<float>(bits >> 9) + 0.5f) * 0x1p-23f;
 }
 
-/// Cosine-distributed direction in the hemisphere about +z, by the concentric map of the disc
-/// [Shirley97].
+/// Cosine-distributed direction in the hemisphere about +z: cos² θ = 1 − u, φ = π (2v − 1).
+///
+/// Chosen over the concentric map of the disc [Shirley97], whose creases along the diagonals cost
+/// scrambled nets a quarter of their order of convergence on smooth functions.
 ///
 /// @param u, v  in (0, 1)
 Vec3f sampleCosineHemisphere(float u, float v);

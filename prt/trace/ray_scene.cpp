@@ -29,6 +29,12 @@ bool isTraceable(const Vec3f& vector) {
     return isTraceable(vector.x) && isTraceable(vector.y) && isTraceable(vector.z);
 }
 
+/// Embree would end the program on a ray that is not; one that is NaN or negative long meets
+/// nothing.
+bool isTraceable(const Vec3f& origin, const Vec3f& direction, float tFar) {
+    return isTraceable(origin) && isTraceable(direction) && tFar >= 0.0f;
+}
+
 std::string deviceConfig(const RaySceneOptions& options) {
     std::string config;
     // Embree keeps a global limit of its own, which must never be above
@@ -167,8 +173,7 @@ namespace {
 class Packet {
   public:
     void setRay(std::size_t lane, const Vec3f& origin, const Vec3f& direction, float tFar) {
-        // A ray that is not finite stays out: Embree would end the program on it.
-        if (!isTraceable(origin) || !isTraceable(direction)) return;
+        if (!isTraceable(origin, direction, tFar)) return;
         valid_[lane] = -1;
         RTCRay16& ray = rays_.ray;
         ray.org_x[lane] = origin.x;
@@ -233,7 +238,7 @@ void RayScene::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
 
 bool RayScene::isOccluded(const Ray& ray) const {
     const Vec3f origin = tracePoint(ray.origin);
-    if (!isTraceable(origin) || !isTraceable(ray.direction)) return false;
+    if (!isTraceable(origin, ray.direction, ray.tFar)) return false;
     RTCRay traced{};
     traced.org_x = origin.x;
     traced.org_y = origin.y;

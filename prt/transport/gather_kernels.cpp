@@ -51,27 +51,24 @@ HWY_INLINE BitVector scrambleLanes(BitVector bits, std::uint32_t seed) {
     return hn::Xor(bits, hn::Mul(bits, hn::Set(d, 0x53a22864u)));
 }
 
-/// 2 unitFloatFromBits − 1, in (−1, 1) and never 0.
-HWY_INLINE Vector signedUnitFromBits(BitVector bits) {
+/// unitFloatFromBits, a number a lane.
+HWY_INLINE Vector unitFromBits(BitVector bits) {
     const Lanes d;
     const auto cells =
         hn::ConvertTo(d, hn::BitCast(hn::RebindToSigned<BitLanes>(), hn::ShiftRight<9>(bits)));
-    return hn::MulAdd(cells, hn::Set(d, 0x1p-22f), hn::Set(d, 0x1p-23f - 1.0f));
+    return hn::MulAdd(cells, hn::Set(d, 0x1p-23f), hn::Set(d, 0x1p-24f));
 }
 
 struct Direction {
     Vector x, y, z;
 };
 
-/// sampleCosineHemisphere, a direction a lane; the angle stays within ±π/4, where short series are
-/// exact to rounding.
-HWY_INLINE Direction cosineHemisphereLanes(Vector a, Vector b) {
+/// sampleCosineHemisphere, a direction a lane. Sine and cosine are those of a quarter of φ, within
+/// ±π/4, where short series are exact to rounding, doubled twice.
+HWY_INLINE Direction cosineHemisphereLanes(Vector u, Vector v) {
     const Lanes d;
-    const auto steep = hn::Gt(hn::Abs(b), hn::Abs(a));
-    const Vector radius = hn::IfThenElse(steep, b, a);
-    const Vector other = hn::IfThenElse(steep, a, b);
-    const Vector angle =
-        hn::Mul(hn::Set(d, std::numbers::pi_v<float> / 4.0f), hn::Div(other, radius));
+    constexpr float kPi = std::numbers::pi_v<float>;
+    const Vector angle = hn::MulAdd(v, hn::Set(d, 0.5f * kPi), hn::Set(d, -0.25f * kPi));
     const Vector square = hn::Mul(angle, angle);
 
     Vector sine = hn::Set(d, 1.0f / 362880.0f);
@@ -84,11 +81,14 @@ HWY_INLINE Direction cosineHemisphereLanes(Vector a, Vector b) {
     cosine = hn::MulAdd(cosine, square, hn::Set(d, 1.0f / 24.0f));
     cosine = hn::MulAdd(cosine, square, hn::Set(d, -0.5f));
     cosine = hn::MulAdd(cosine, square, hn::Set(d, 1.0f));
+    for (int doubling = 0; doubling < 2; ++doubling) {
+        const Vector product = hn::Mul(sine, cosine);
+        cosine = hn::NegMulAdd(hn::Add(sine, sine), sine, hn::Set(d, 1.0f));
+        sine = hn::Add(product, product);
+    }
 
-    const Vector along = hn::Mul(radius, cosine);
-    const Vector across = hn::Mul(radius, sine);
-    const Vector height = hn::Sqrt(hn::NegMulAdd(radius, radius, hn::Set(d, 1.0f)));
-    return {hn::IfThenElse(steep, across, along), hn::IfThenElse(steep, along, across), height};
+    const Vector radius = hn::Sqrt(u);
+    return {hn::Mul(radius, cosine), hn::Mul(radius, sine), hn::Sqrt(hn::Sub(hn::Set(d, 1.0f), u))};
 }
 
 void sampleDirections(const SamplePattern& pattern, const ReceiverSampling& sampling,
@@ -114,9 +114,9 @@ void sampleDirections(const SamplePattern& pattern, const ReceiverSampling& samp
     for (std::size_t i = 0; i < rays.size(); i += hn::Lanes(d)) {
         const BitVector x = hn::LoadU(bitLanes, pattern.reversedX.data() + i);
         const BitVector y = hn::LoadU(bitLanes, pattern.reversedY.data() + i);
-        const Direction local = cosineHemisphereLanes(
-            signedUnitFromBits(reverseBitLanes(scrambleLanes(x, sampling.seedX))),
-            signedUnitFromBits(reverseBitLanes(scrambleLanes(y, sampling.seedY))));
+        const Direction local =
+            cosineHemisphereLanes(unitFromBits(reverseBitLanes(scrambleLanes(x, sampling.seedX))),
+                                  unitFromBits(reverseBitLanes(scrambleLanes(y, sampling.seedY))));
         hn::StoreU(rotate(local, 0), d, rays.directionX.data() + i);
         hn::StoreU(rotate(local, 1), d, rays.directionY.data() + i);
         hn::StoreU(rotate(local, 2), d, rays.directionZ.data() + i);
