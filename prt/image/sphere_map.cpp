@@ -119,21 +119,43 @@ double cornerSolidAngle(double x, double y) {
     return std::atan2(x * y, std::sqrt(x * x + y * y + 1.0));
 }
 
-SphereTexel cubeTexel(SphereMap map, int faceSize, int x, int y) {
-    for (const CubeFace& face : cubeFaces(map)) {
-        const int column = x - face.column * faceSize;
-        const int row = y - face.row * faceSize;
-        if (column < 0 || column >= faceSize || row < 0 || row >= faceSize) continue;
+/// A coordinate on a face, in units of its distance.
+double faceCoordinate(double pixel, int faceSize) {
+    return 2.0 * pixel / faceSize - 1.0;
+}
 
-        const auto coordinate = [faceSize](double pixel) { return 2.0 * pixel / faceSize - 1.0; };
-        const Vec3d direction = face.forward + face.right * coordinate(column + 0.5) +
-                                face.down * coordinate(row + 0.5);
-        const double x0 = coordinate(column), x1 = coordinate(column + 1);
-        const double y0 = coordinate(row), y1 = coordinate(row + 1);
-        return {direction.normalized(), cornerSolidAngle(x0, y0) - cornerSolidAngle(x0, y1) -
-                                            cornerSolidAngle(x1, y0) + cornerSolidAngle(x1, y1)};
-    }
-    return {};
+/// The face that a place of the image belongs to, or null.
+const CubeFace* faceAt(SphereMap map, int faceSize, double x, double y) {
+    const int column = static_cast<int>(std::floor(x / faceSize));
+    const int row = static_cast<int>(std::floor(y / faceSize));
+    for (const CubeFace& face : cubeFaces(map))
+        if (face.column == column && face.row == row) return &face;
+    return nullptr;
+}
+
+SpherePlace cubePlace(SphereMap map, int faceSize, double x, double y) {
+    const CubeFace* face = faceAt(map, faceSize, x, y);
+    if (!face) return {};
+    const double right = faceCoordinate(x - face->column * faceSize, faceSize);
+    const double down = faceCoordinate(y - face->row * faceSize, faceSize);
+    const Vec3d direction = face->forward + face->right * right + face->down * down;
+    const double distance = direction.length();
+    const double pixelSide = 2.0 / faceSize;
+    return {direction / distance, pixelSide * pixelSide / (distance * distance * distance)};
+}
+
+SphereTexel cubeTexel(SphereMap map, int faceSize, int x, int y) {
+    const CubeFace* face = faceAt(map, faceSize, x + 0.5, y + 0.5);
+    if (!face) return {};
+    const int column = x - face->column * faceSize;
+    const int row = y - face->row * faceSize;
+    const double x0 = faceCoordinate(column, faceSize);
+    const double x1 = faceCoordinate(column + 1, faceSize);
+    const double y0 = faceCoordinate(row, faceSize);
+    const double y1 = faceCoordinate(row + 1, faceSize);
+    return {cubePlace(map, faceSize, x + 0.5, y + 0.5).direction,
+            cornerSolidAngle(x0, y0) - cornerSolidAngle(x0, y1) - cornerSolidAngle(x1, y0) +
+                cornerSolidAngle(x1, y1)};
 }
 
 struct FacePixel {
@@ -156,14 +178,19 @@ FacePixel facePixelFromDirection(SphereMap map, int faceSize, const Vec3f& direc
 
 // ── Lat-long maps ────────────────────────────────────────────────────────────────────────────────
 
-SphereTexel latLongTexel(int width, int height, int x, int y) {
-    const double azimuth = 2.0 * kPi * ((x + 0.5) / width - 0.5);
-    const double polar = kPi * (y + 0.5) / height;
+SpherePlace latLongPlace(int width, int height, double x, double y) {
+    const double azimuth = 2.0 * kPi * (x / width - 0.5);
+    const double polar = kPi * y / height;
     const double radius = std::sin(polar);
-    // cos a − cos b = 2 sin((a + b)/2) sin((b − a)/2)
-    const double band = 2.0 * radius * std::sin(0.5 * kPi / height);
     return {Vec3d(radius * std::cos(azimuth), std::cos(polar), radius * std::sin(azimuth)),
-            2.0 * kPi / width * band};
+            2.0 * kPi / width * kPi / height * radius};
+}
+
+SphereTexel latLongTexel(int width, int height, int x, int y) {
+    const SpherePlace center = latLongPlace(width, height, x + 0.5, y + 0.5);
+    // cos a − cos b = 2 sin((a + b)/2) sin((b − a)/2)
+    const double band = 2.0 * std::sin(kPi * (y + 0.5) / height) * std::sin(0.5 * kPi / height);
+    return {center.direction, 2.0 * kPi / width * band};
 }
 
 Vec2f latLongPixel(int width, int height, const Vec3f& direction) {
@@ -207,22 +234,32 @@ double integrateAngularDensity(double left, double top, double side,
     return 0.25 * side * sum;
 }
 
+SpherePlace angularPlace(int size, double pixelX, double pixelY) {
+    const double x = discCoordinate(pixelX, size);
+    const double y = discCoordinate(pixelY, size);
+    const double radius = lengthOf(x, y);
+    if (radius > 1.0) return {};
+    const double sine = std::sin(kPi * radius);
+    const double perRadius = radius > 0.0 ? sine / radius : 0.0;
+    const double pixelSide = 2.0 / size;
+    return {Vec3d(x * perRadius, -y * perRadius, -std::cos(kPi * radius)),
+            pixelSide * pixelSide * angularDensity(x, y)};
+}
+
 SphereTexel angularTexel(int size, int pixelX, int pixelY) {
     if (!isInDisc(size, pixelX, pixelY)) return {};
     const double x = discCoordinate(pixelX + 0.5, size);
     const double y = discCoordinate(pixelY + 0.5, size);
     const double radius = lengthOf(x, y);
-    const double sine = std::sin(kPi * radius);
-    const double perRadius = radius > 0.0 ? sine / radius : 0.0;
-    const Vec3d direction(x * perRadius, -y * perRadius, -std::cos(kPi * radius));
 
     // The integrand is smooth but at the rim, which few texels cross.
     static const std::vector<QuadratureNode> kSmoothRule = gaussLegendre(2);
     static const std::vector<QuadratureNode> kRimRule = gaussLegendre(32);
     const double side = 2.0 / size;
     const bool crossesRim = radius + side > 1.0;
-    return {direction, integrateAngularDensity(x - 0.5 * side, y - 0.5 * side, side,
-                                               crossesRim ? kRimRule : kSmoothRule)};
+    return {angularPlace(size, pixelX + 0.5, pixelY + 0.5).direction,
+            integrateAngularDensity(x - 0.5 * side, y - 0.5 * side, side,
+                                    crossesRim ? kRimRule : kSmoothRule)};
 }
 
 /// @param maxRadius  of the disc: the direction straight behind is everywhere on its rim
@@ -289,6 +326,18 @@ SphereTexel sphereTexel(SphereMap map, int width, int height, int x, int y) {
             return angularTexel(width, x, y);
         default:
             return cubeTexel(map, width / traitsOf(map).columnCount, x, y);
+    }
+}
+
+SpherePlace spherePlace(SphereMap map, int width, int height, double x, double y) {
+    checkShape(map, width, height);
+    switch (map) {
+        case SphereMap::latLong:
+            return latLongPlace(width, height, x, y);
+        case SphereMap::angularMap:
+            return angularPlace(width, x, y);
+        default:
+            return cubePlace(map, width / traitsOf(map).columnCount, x, y);
     }
 }
 

@@ -41,6 +41,18 @@ struct SphereTexel {
 /// of an angular map.
 SphereTexel sphereTexel(SphereMap map, int width, int height, int x, int y);
 
+/// A place of a sphere map, between texel centres too.
+struct SpherePlace {
+    Vec3d direction{0.0, 0.0, 0.0};  ///< unit
+    double solidAngleDensity = 0.0;  ///< steradians per area of a pixel
+};
+
+/// Where a place of a sphere map lies on the sphere; pixelFromDirection leads back.
+///
+/// @param x, y  continuous pixel coordinates (texel centres at +½)
+/// @return      all 0 where the map shows nothing
+SpherePlace spherePlace(SphereMap map, int width, int height, double x, double y);
+
 /// Continuous pixel coordinates (texel centres at +½) of the direction.
 ///
 /// @param direction  unit, world space

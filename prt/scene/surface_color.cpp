@@ -102,6 +102,11 @@ Vec4f evaluateBaseColor(const Scene& scene, const SurfacePoint& point) {
                  color.w);
 }
 
+Vec3f evaluateAlbedo(const Scene& scene, const SurfacePoint& point) {
+    const Vec4f baseColor = evaluateBaseColor(scene, point);
+    return {baseColor.x, baseColor.y, baseColor.z};
+}
+
 Vec3f evaluateEmission(const Scene& scene, const SurfacePoint& point) {
     const Material& material = scene.materials[scene.meshes[point.mesh].material];
     const Vec4f texel = sampleAt(scene, material.emissiveTexture, point);

@@ -32,6 +32,9 @@ Value interpolateCorners(const Mesh& mesh, const SurfacePoint& point,
 /// to [0, 1], as a reflectance is.
 Vec4f evaluateBaseColor(const Scene& scene, const SurfacePoint& point);
 
+/// The rgb of evaluateBaseColor.
+Vec3f evaluateAlbedo(const Scene& scene, const SurfacePoint& point);
+
 /// Emitted radiance: factor × texture, linear [glTF 2.0, 3.9.3], W·sr⁻¹·m⁻².
 Vec3f evaluateEmission(const Scene& scene, const SurfacePoint& point);
 

@@ -14,6 +14,16 @@ RayStream::RayStream(std::size_t rayCount)
       directionZ(rayCount),
       tFar(rayCount) {}
 
+void RayStream::setRay(std::size_t index, const Vec3f& origin, const Vec3f& direction) {
+    originX[index] = origin.x;
+    originY[index] = origin.y;
+    originZ[index] = origin.z;
+    directionX[index] = direction.x;
+    directionY[index] = direction.y;
+    directionZ[index] = direction.z;
+    tFar[index] = std::numeric_limits<float>::infinity();
+}
+
 void RayStream::restart(const Vec3f& origin) {
     std::fill(originX.begin(), originX.end(), origin.x);
     std::fill(originY.begin(), originY.end(), origin.y);

@@ -7,12 +7,14 @@
 
 namespace prt {
 
-/// Rays of infinite length from one origin, as structure of arrays, in the tracer's own space
+/// Rays of infinite length as structure of arrays, in the tracer's own space
 /// (RayScene::tracePoint).
 struct RayStream {
     explicit RayStream(std::size_t rayCount);
 
     std::size_t size() const { return directionX.size(); }
+
+    void setRay(std::size_t index, const Vec3f& origin, const Vec3f& direction);
 
     /// Moves all rays to this origin and makes them infinite again.
     void restart(const Vec3f& origin);

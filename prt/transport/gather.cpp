@@ -34,11 +34,6 @@ std::size_t slotCountFor(std::size_t hitCount) {
     return std::bit_ceil(6 * hitCount + 1);
 }
 
-Vec3f evaluateAlbedo(const Scene& scene, const SurfacePoint& point) {
-    const Vec4f baseColor = evaluateBaseColor(scene, point);
-    return {baseColor.x, baseColor.y, baseColor.z};
-}
-
 /// One albedo a mesh, where neither a texture nor vertex colours vary it.
 std::vector<std::optional<Vec3f>> findUniformAlbedos(const Scene& scene) {
     std::vector<std::optional<Vec3f>> albedos(scene.meshes.size());

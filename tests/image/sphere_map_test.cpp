@@ -208,6 +208,41 @@ double sumSolidAngles(const Shape& shape, int cellSize) {
     return sum;
 }
 
+TEST(SphereMap, PlacesLeadBackAndTheirDensityAddsUpToTexels) {
+    constexpr int kCellSize = 16;
+    constexpr int kFine = 16;                // midpoints an axis of a texel
+    constexpr double kMidpointError = 2e-3;  // of texels beside a pole
+    constexpr double kPixelRounding = 1e-3;
+    for (const auto& [map, columnCount, rowCount] : kShapes) {
+        const int width = kCellSize * columnCount, height = kCellSize * rowCount;
+        int texelCount = 0;
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                const SphereTexel texel = sphereTexel(map, width, height, x, y);
+                const SpherePlace center = spherePlace(map, width, height, x + 0.5, y + 0.5);
+                EXPECT_EQ(texel.solidAngle > 0.0, center.solidAngleDensity > 0.0);
+                if (texel.solidAngle == 0.0) continue;
+                EXPECT_LT(angleBetween(center.direction, texel.direction), 1e-12);
+                const Vec2f back = pixelFromDirection(map, width, height, Vec3f(center.direction));
+                EXPECT_NEAR(back.x, x + 0.5, kPixelRounding);
+                EXPECT_NEAR(back.y, y + 0.5, kPixelRounding);
+                // Texels that the rim of an angular map cuts are not smooth.
+                const double radius = std::hypot(x + 0.5 - width / 2.0, y + 0.5 - height / 2.0);
+                if (map == SphereMap::angularMap && radius > width / 2.0 - 1.0) continue;
+                double sum = 0.0;
+                for (int i = 0; i < kFine * kFine; ++i)
+                    sum += spherePlace(map, width, height, x + (i % kFine + 0.5) / kFine,
+                                       y + (i / kFine + 0.5) / kFine)
+                               .solidAngleDensity;
+                EXPECT_NEAR(sum / (kFine * kFine), texel.solidAngle,
+                            kMidpointError * texel.solidAngle);
+                ++texelCount;
+            }
+        }
+        EXPECT_GT(texelCount, width * height / 3);
+    }
+}
+
 TEST(SphereMap, SolidAnglesSumToTheSphere) {
     for (const Shape& shape : kShapes) {
         for (const int cellSize : {1, 2, 7, 64}) {
