@@ -23,8 +23,8 @@ endif()
 target_compile_definitions(prt_build_flags INTERFACE "HWY_DISABLED_TARGETS=(${unused_targets})")
 if(PRT_SANITIZE)
     target_compile_options(prt_build_flags INTERFACE
-        -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
-    target_link_options(prt_build_flags INTERFACE -fsanitize=address,undefined)
+        -fsanitize=${PRT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(prt_build_flags INTERFACE -fsanitize=${PRT_SANITIZE})
 endif()
 
 set_property(GLOBAL PROPERTY PRT_MODULES "")
