@@ -27,7 +27,7 @@ void writeProceduralScene(const SceneArguments& arguments) {
     requireSuffix(arguments.output, ".glb");
     const Scene scene = makeProceduralScene(arguments.name);
     const DeferInterrupts whileWriting;
-    writeScene(arguments.output, scene);
+    writeGlb(arguments.output, scene);
 }
 
 }  // namespace

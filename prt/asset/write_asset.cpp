@@ -6,7 +6,6 @@
 
 #include "prt/asset/asset_header.h"
 #include "prt/base/assert.h"
-#include "prt/base/file.h"
 #include "prt/gltf/glb_writer.h"
 
 namespace prt {
@@ -64,10 +63,8 @@ std::size_t countWrittenVertices(const Scene& scene) {
     return count;
 }
 
-}  // namespace
-
-std::vector<std::byte> encodeAsset(const Scene& scene, const CompressedTransfer& transfer,
-                                   const Provenance& provenance) {
+GlbExtension makeExtension(const Scene& scene, const CompressedTransfer& transfer,
+                           const Provenance& provenance) {
     checkTransfer(scene, transfer);
     GlbExtension extension;
     extension.name = kAssetExtension;
@@ -79,12 +76,21 @@ std::vector<std::byte> encodeAsset(const Scene& scene, const CompressedTransfer&
             transfer, Receivers(transfer.receiverOfVertex)
                           .subspan(offsets[mesh], offsets[mesh + 1] - offsets[mesh])));
     }
+    return extension;
+}
+
+}  // namespace
+
+std::vector<std::byte> encodeAsset(const Scene& scene, const CompressedTransfer& transfer,
+                                   const Provenance& provenance) {
+    const GlbExtension extension = makeExtension(scene, transfer, provenance);
     return encodeGlb(scene, &extension);
 }
 
 void writeAsset(const std::filesystem::path& path, const Scene& scene,
                 const CompressedTransfer& transfer, const Provenance& provenance) {
-    writeFileAtomically(path, encodeAsset(scene, transfer, provenance));
+    const GlbExtension extension = makeExtension(scene, transfer, provenance);
+    writeGlb(path, scene, &extension);
 }
 
 }  // namespace prt

@@ -32,61 +32,15 @@ void checkReplaceable(const fs::path& path) {
         throw Error(ErrorCode::writeFailed, "is a device or a pipe, not a file", path.string());
 }
 
-/// An open temporary file beside its destination; removed again unless committed.
-class TemporaryFile {
-  public:
-    explicit TemporaryFile(const fs::path& destination) : destination_(destination) {
-        checkReplaceable(destination);
-        temporary_ = destination.string() + ".part-XXXXXX";
-        descriptor_ = ::mkstemp(temporary_.data());
-        if (descriptor_ < 0) throwWriteFailed(destination_, errno);
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-        if (!temporary_.empty()) ::unlink(temporary_.c_str());
-    }
-
-    void write(std::span<const std::byte> bytes) {
-        while (!bytes.empty()) {
-            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) throwWriteFailed(destination_, errno);
-            bytes = bytes.subspan(static_cast<std::size_t>(written));
-        }
-    }
-
-    /// Makes the bytes durable before the name points at them [OSDI14].
-    void commit() {
-        // mkstemp makes files private; give the result the mode an ordinary create would have.
-        const mode_t mask = ::umask(0);
-        ::umask(mask);
-        if (::fchmod(descriptor_, 0666 & ~mask) != 0) throwWriteFailed(destination_, errno);
-        if (::fsync(descriptor_) != 0) throwWriteFailed(destination_, errno);
-        const int closed = ::close(descriptor_);
-        descriptor_ = -1;
-        if (closed != 0) throwWriteFailed(destination_, errno);
-        if (::rename(temporary_.c_str(), destination_.c_str()) != 0)
-            throwWriteFailed(destination_, errno);
-        temporary_.clear();
-        syncFolder();
-    }
-
-  private:
-    void syncFolder() const {
-        const fs::path folder =
-            destination_.has_parent_path() ? destination_.parent_path() : fs::path(".");
-        const int folderDescriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
-        if (folderDescriptor < 0) return;
-        ::fsync(folderDescriptor);
-        ::close(folderDescriptor);
-    }
-
-    fs::path destination_;
-    std::string temporary_;
-    int descriptor_ = -1;
-};
+/// Makes a rename in the folder of a file durable; where folders cannot be flushed, no harm is
+/// done.
+void syncFolderOf(const fs::path& path) {
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+}
 
 }  // namespace
 
@@ -111,9 +65,47 @@ std::vector<std::byte> readFile(const fs::path& path, std::uintmax_t maxBytes) {
     return bytes;
 }
 
+AtomicFile::AtomicFile(const fs::path& destination) : destination_(destination) {
+    checkReplaceable(destination);
+    temporary_ = destination.string() + ".part-XXXXXX";
+    descriptor_ = ::mkstemp(temporary_.data());
+    if (descriptor_ < 0) throwWriteFailed(destination_, errno);
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written =
+            ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) throwWriteFailed(destination_, errno);
+        offset += static_cast<std::uint64_t>(written);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+}
+
+void AtomicFile::commit() {
+    // mkstemp makes files private; give the result the mode an ordinary create would have.
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    if (::fchmod(descriptor_, 0666 & ~mask) != 0) throwWriteFailed(destination_, errno);
+    if (::fsync(descriptor_) != 0) throwWriteFailed(destination_, errno);
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0) throwWriteFailed(destination_, errno);
+    if (::rename(temporary_.c_str(), destination_.c_str()) != 0)
+        throwWriteFailed(destination_, errno);
+    temporary_.clear();
+    syncFolderOf(destination_);
+}
+
 void writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {
-    TemporaryFile file(path);
-    file.write(bytes);
+    AtomicFile file(path);
+    file.write(0, bytes);
     file.commit();
 }
 
@@ -122,7 +114,7 @@ void writeFileAtomically(const fs::path& path, const std::string& text) {
 }
 
 void checkWritable(const fs::path& path) {
-    const TemporaryFile probe(path);
+    const AtomicFile probe(path);
 }
 
 }  // namespace prt

@@ -15,10 +15,29 @@ namespace prt {
 /// @throws Error    notFound, unreadable, or limitExceeded, with `path` as its place
 std::vector<std::byte> readFile(const std::filesystem::path& path, std::uintmax_t maxBytes);
 
-/// Writes a whole file so that `path` holds either its old content or all of the new: the bytes go
-/// to a temporary name beside it, are flushed to the disk, and are then renamed.
-///
-/// @throws Error  writeFailed, with the system's reason; no temporary file is left
+/// A file in the making: its path holds either its old content or, once committed, all of the new.
+/// The bytes go to a temporary name beside it, which is gone unless they are committed.
+class AtomicFile {
+  public:
+    /// @throws Error  writeFailed, as all others, with the system's reason
+    explicit AtomicFile(const std::filesystem::path& destination);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    /// Parts may come in any order; what no part covers is zero.
+    void write(std::uint64_t offset, std::span<const std::byte> bytes);
+
+    /// Flushes the bytes to the disk, and then lets the name point at them [OSDI14].
+    void commit();
+
+  private:
+    std::filesystem::path destination_;
+    std::string temporary_;
+    int descriptor_ = -1;
+};
+
+/// Writes a whole file as an AtomicFile. @throws Error writeFailed; no temporary file is left
 void writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 /// The same for text.

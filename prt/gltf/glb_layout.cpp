@@ -181,12 +181,9 @@ GlbLayout layOutBinary(const Scene& scene, const GlbExtension* extension) {
     return arranger.takeLayout();
 }
 
-void writeViews(const GlbLayout& layout, std::span<std::byte> buffer) {
-    for (const ViewLayout& view : layout.views) {
-        const std::span<std::byte> bytes = buffer.subspan(view.byteOffset, view.byteLength);
-        view.write(bytes);
-        if (view.holdsFloats) requireFinite(view, bytes);
-    }
+void writeView(const ViewLayout& view, std::span<std::byte> bytes) {
+    view.write(bytes);
+    if (view.holdsFloats) requireFinite(view, bytes);
 }
 
 }  // namespace prt::gltf

@@ -50,10 +50,10 @@ struct GlbLayout {
 /// @param scene, extension  outlive the result
 GlbLayout layOutBinary(const Scene& scene, const GlbExtension* extension);
 
-/// Makes the bytes of all views.
+/// Makes the bytes of a view.
 ///
-/// @param buffer  layout.byteLength zeros, written
+/// @param bytes   view.byteLength zeros, written
 /// @throws Error  malformed if a float is not finite
-void writeViews(const GlbLayout& layout, std::span<std::byte> buffer);
+void writeView(const ViewLayout& view, std::span<std::byte> bytes);
 
 }  // namespace prt::gltf

@@ -1,6 +1,6 @@
 #include "prt/gltf/glb_writer.h"
 
-#include <cstring>
+#include <algorithm>
 #include <limits>
 
 #include "prt/base/assert.h"
@@ -26,11 +26,6 @@ std::size_t alignUp(std::size_t byteCount) {
     return (byteCount + 3) / 4 * 4;
 }
 
-void writeWord(std::span<std::byte> file, std::size_t offset, std::size_t word) {
-    const auto narrow = static_cast<std::uint32_t>(word);
-    std::memcpy(file.data() + offset, &narrow, sizeof(narrow));
-}
-
 /// Where the two chunks of a binary glTF lie.
 struct GlbChunks {
     std::size_t jsonBytes = 0;    ///< padded
@@ -53,17 +48,58 @@ GlbChunks layOutChunks(std::size_t jsonBytes, std::size_t binaryBytes) {
     return chunks;
 }
 
-void writeContainer(const GlbChunks& chunks, const std::string& json, std::span<std::byte> file) {
-    writeWord(file, 0, kMagic);
-    writeWord(file, 4, kVersion);
-    writeWord(file, 8, chunks.fileBytes());
-    writeWord(file, chunks.jsonOffset() - 8, chunks.jsonBytes);
-    writeWord(file, chunks.jsonOffset() - 4, kJsonChunk);
-    std::memset(file.data() + chunks.jsonOffset(), ' ', chunks.jsonBytes);
-    std::memcpy(file.data() + chunks.jsonOffset(), json.data(), json.size());
-    if (chunks.binaryBytes == 0) return;
-    writeWord(file, chunks.binaryOffset() - 8, chunks.binaryBytes);
-    writeWord(file, chunks.binaryOffset() - 4, kBinaryChunk);
+/// Takes a part of the file. Parts come in any order and cover all of it.
+using PartWriter = std::function<void(std::size_t offset, std::span<const std::byte> bytes)>;
+
+void appendWord(std::string& bytes, std::size_t word) {
+    const auto narrow = static_cast<std::uint32_t>(word);
+    bytes.append(reinterpret_cast<const char*>(&narrow), sizeof(narrow));
+}
+
+/// All that stands before the views: the header, the JSON, and the binary chunk's own header.
+std::string makeFront(const GlbChunks& chunks, std::string json) {
+    std::string front;
+    appendWord(front, kMagic);
+    appendWord(front, kVersion);
+    appendWord(front, chunks.fileBytes());
+    appendWord(front, chunks.jsonBytes);
+    appendWord(front, kJsonChunk);
+    json.resize(chunks.jsonBytes, ' ');
+    front += json;
+    if (chunks.binaryBytes > 0) {
+        appendWord(front, chunks.binaryBytes);
+        appendWord(front, kBinaryChunk);
+    }
+    return front;
+}
+
+/// Makes the file part by part, of which only the largest view is in memory at once.
+void makeGlb(const Scene& scene, const GlbExtension* extension, const PartWriter& write) {
+    if (extension)
+        PRT_ASSERT(extension->meshJson.size() == scene.meshes.size() &&
+                       extension->attributes.size() == scene.meshes.size(),
+                   "the extension has an object and attributes for each mesh");
+
+    // Checksums are all of one length, so the size of the JSON is known before its content.
+    const gltf::GlbLayout layout = gltf::layOutBinary(scene, extension);
+    std::vector<std::string> checksums(layout.views.size(), formatChecksum(0));
+    const std::size_t jsonBytes = gltf::describeGlb(scene, extension, layout, checksums).size();
+    const GlbChunks chunks = layOutChunks(jsonBytes, layout.byteLength);
+
+    std::vector<std::byte> bytes;
+    for (std::size_t i = 0; i < layout.views.size(); ++i) {
+        const gltf::ViewLayout& view = layout.views[i];
+        bytes.assign(view.byteLength, std::byte{0});
+        gltf::writeView(view, bytes);
+        checksums[i] = formatChecksum(computeCrc32(bytes));
+        // The chunk's padding comes with its last view.
+        if (i + 1 == layout.views.size())
+            bytes.resize(chunks.binaryBytes - view.byteOffset, std::byte{0});
+        write(chunks.binaryOffset() + view.byteOffset, bytes);
+    }
+    const std::string front =
+        makeFront(chunks, gltf::describeGlb(scene, extension, layout, checksums));
+    write(0, std::as_bytes(std::span(front)));
 }
 
 }  // namespace
@@ -76,31 +112,21 @@ std::string formatChecksum(std::uint32_t crc32) {
 }
 
 std::vector<std::byte> encodeGlb(const Scene& scene, const GlbExtension* extension) {
-    if (extension)
-        PRT_ASSERT(extension->meshJson.size() == scene.meshes.size() &&
-                       extension->attributes.size() == scene.meshes.size(),
-                   "the extension has an object and attributes for each mesh");
-
-    // Checksums are all of one length, so the size of the JSON is known before its content.
-    const gltf::GlbLayout layout = gltf::layOutBinary(scene, extension);
-    std::vector<std::string> checksums(layout.views.size(), formatChecksum(0));
-    const std::size_t jsonBytes = gltf::describeGlb(scene, extension, layout, checksums).size();
-    const GlbChunks chunks = layOutChunks(jsonBytes, layout.byteLength);
-
-    std::vector<std::byte> file(chunks.fileBytes());
-    const std::span<std::byte> binary = chunks.binaryBytes > 0
-                                            ? std::span(file).subspan(chunks.binaryOffset())
-                                            : std::span<std::byte>();
-    gltf::writeViews(layout, binary);
-    for (std::size_t i = 0; i < layout.views.size(); ++i)
-        checksums[i] = formatChecksum(
-            computeCrc32(binary.subspan(layout.views[i].byteOffset, layout.views[i].byteLength)));
-    writeContainer(chunks, gltf::describeGlb(scene, extension, layout, checksums), file);
+    std::vector<std::byte> file;
+    makeGlb(scene, extension, [&](std::size_t offset, std::span<const std::byte> bytes) {
+        file.resize(std::max(file.size(), offset + bytes.size()));
+        std::copy(bytes.begin(), bytes.end(), file.begin() + static_cast<std::ptrdiff_t>(offset));
+    });
     return file;
 }
 
-void writeScene(const std::filesystem::path& path, const Scene& scene) {
-    writeFileAtomically(path, encodeGlb(scene));
+void writeGlb(const std::filesystem::path& path, const Scene& scene,
+              const GlbExtension* extension) {
+    AtomicFile file(path);
+    makeGlb(scene, extension, [&](std::size_t offset, std::span<const std::byte> bytes) {
+        file.write(offset, bytes);
+    });
+    file.commit();
 }
 
 }  // namespace prt

@@ -46,7 +46,9 @@ std::string formatChecksum(std::uint32_t crc32);
 ///                   the 4 GiB that a binary glTF can have
 std::vector<std::byte> encodeGlb(const Scene& scene, const GlbExtension* extension = nullptr);
 
-/// Writes a plain scene atomically. @throws Error as encodeGlb, and writeFailed
-void writeScene(const std::filesystem::path& path, const Scene& scene);
+/// Writes the same atomically, with no more of it in memory than the largest of its parts.
+/// @throws Error as encodeGlb, and writeFailed
+void writeGlb(const std::filesystem::path& path, const Scene& scene,
+              const GlbExtension* extension = nullptr);
 
 }  // namespace prt

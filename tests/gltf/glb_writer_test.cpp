@@ -98,7 +98,7 @@ Scene richScene() {
 
 Scene writeAndRead(const Scene& scene) {
     const ScratchFolder folder;
-    writeScene(folder.path() / "scene.glb", scene);
+    writeGlb(folder.path() / "scene.glb", scene);
     return readGltf(folder.path() / "scene.glb");
 }
 
