@@ -57,6 +57,15 @@ std::optional<PictureSize> parsePictureSize(std::string_view text) {
     return PictureSize{*width, *height};
 }
 
+std::optional<int> parseBounceCount(std::string_view text) {
+    constexpr int kMaxBounceCount = 1000;
+    if (text == "inf") return kEveryBounce;
+    const std::optional<double> count = parseNumber(text);
+    if (!count || *count < 0.0 || *count > kMaxBounceCount || *count != std::floor(*count))
+        return std::nullopt;
+    return static_cast<int>(*count);
+}
+
 Mat3d rotationFromDegrees(const Vec3d& degrees) {
     const Vec3d radians = degrees * (std::numbers::pi / 180.0);
     return rotationZ(radians.z) * rotationY(radians.y) * rotationX(radians.x);

@@ -26,6 +26,10 @@ std::optional<Vec3d> parseTriple(std::string_view text);  ///< "x,y,z"
 std::optional<PictureSize> parsePictureSize(
     std::string_view text);  ///< "1280x720", each side 1 … 16384
 
+/// What parseBounceCount makes of "inf", as the library does.
+inline constexpr int kEveryBounce = -1;
+std::optional<int> parseBounceCount(std::string_view text);  ///< 0 … 1000, or "inf"
+
 /// Turned by so many degrees about the world's x axis, then y, then z.
 Mat3d rotationFromDegrees(const Vec3d& degrees);
 

@@ -30,6 +30,8 @@
 namespace prt::cli {
 namespace {
 
+static_assert(kEveryBounce == kInfiniteBounces);
+
 constexpr float kKeepEdges = std::numeric_limits<float>::infinity();
 constexpr std::array<std::pair<std::string_view, TransferEncoding>, 3> kMethods = {{
     {"float", TransferEncoding::float32},
@@ -65,15 +67,6 @@ std::string_view methodName(TransferEncoding encoding) {
     for (const auto& [method, known] : kMethods)
         if (known == encoding) return method;
     return encodingName(encoding);
-}
-
-std::optional<int> parseBounces(std::string_view text) {
-    constexpr int kMaxBounceCount = 1000;
-    if (text == "inf") return kInfiniteBounces;
-    const std::optional<double> count = parseNumber(text);
-    if (!count || *count < 0.0 || *count > kMaxBounceCount || *count != std::floor(*count))
-        return std::nullopt;
-    return static_cast<int>(*count);
 }
 
 std::optional<float> parseEdgeLength(std::string_view text) {
@@ -253,7 +246,7 @@ void addBakeCommand(CLI::App& app) {
     addIntegerOption(*command, "--samples", bake.sampleCount, 16, 65536,
                      "rays a vertex; 16 to 65536");
     CLI::Option* bounces =
-        addParsedOption(*command, "--bounces", bake.bounceCount, parseBounces, "N|inf",
+        addParsedOption(*command, "--bounces", bake.bounceCount, parseBounceCount, "N|inf",
                         "indirect bounces; 0 to 1000, or until nothing changes")
             ->default_str("2");
     addParsedOption(*command, "--max-edge", arguments->maxEdgeLength, parseEdgeLength,

@@ -9,6 +9,7 @@ namespace prt::cli {
 void addBakeCommand(CLI::App& app);
 void addLightCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
+void addCompareCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 void addCheckCommand(CLI::App& app);
 void addSceneCommand(CLI::App& app);

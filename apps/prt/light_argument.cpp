@@ -38,7 +38,7 @@ Lighting parseUniform(const std::string& argument, int bandCount) {
 }
 
 /// Azimuth runs as u of a lat-long image does (C4).
-Lighting parseSun(const std::string& argument, int bandCount) {
+Sun parseSun(const std::string& argument) {
     const std::optional<Vec3d> degrees =
         parseTriple(std::string_view(argument).substr(kSunPrefix.size()));
     if (!degrees || std::abs(degrees->y) > 90.0 || degrees->z < 0.0 || degrees->z > 360.0)
@@ -48,7 +48,7 @@ Lighting parseSun(const std::string& argument, int bandCount) {
     const Vec3d radians = *degrees * (std::numbers::pi / 180.0);
     const Vec3d direction(std::cos(radians.y) * std::cos(radians.x), std::sin(radians.y),
                           std::cos(radians.y) * std::sin(radians.x));
-    return sunLighting(direction, 0.5 * radians.z, bandCount);
+    return {direction, 0.5 * radians.z};
 }
 
 Lighting readCoefficients(const std::string& path, int bandCount) {
@@ -64,8 +64,10 @@ LightSource readEnvironment(const std::string& path, int bandCount, std::optiona
     if (looksLikePrefix)
         throwMalformed(path, "a file, uniform:r,g,b or sun:azimuth,elevation,angle");
     LoadedEnvironment loaded = loadEnvironment(path, map);
-    return {projectLighting(loaded.environment, bandCount), std::move(loaded.environment),
-            loaded.mended};
+    return {projectLighting(loaded.environment, bandCount),
+            std::move(loaded.environment),
+            loaded.mended,
+            {}};
 }
 
 /// The environment turned as rotate() turns its coefficients: L(R⁻¹ω).
@@ -101,9 +103,13 @@ LightSource loadLight(const std::string& argument, int bandCount, std::optional<
     if (map && (isUniform || isSun || isJson || fs::is_directory(argument)))
         throw Error(ErrorCode::invalidOption, "has no layout to choose", argument,
                     "--map is for one image");
-    if (isUniform) return {parseUniform(argument, bandCount), {}, {}};
-    if (isSun) return {parseSun(argument, bandCount), {}, {}};
-    if (isJson) return {readCoefficients(argument, bandCount), {}, {}};
+    if (isUniform) return {.lighting = parseUniform(argument, bandCount)};
+    if (isSun) {
+        const Sun sun = parseSun(argument);
+        return {.lighting = sunLighting(sun.direction, sun.halfAngleRadians, bandCount),
+                .sun = sun};
+    }
+    if (isJson) return {.lighting = readCoefficients(argument, bandCount)};
     return readEnvironment(argument, bandCount, map);
 }
 
@@ -118,6 +124,13 @@ std::optional<std::string> describeMending(const SanitiseReport& mended) {
             fmt::format("{} with a negative channel became 0 there", mended.negativeCount));
     if (parts.empty()) return std::nullopt;
     return fmt::format("texels were mended: {}", fmt::join(parts, ", "));
+}
+
+std::unique_ptr<DistantLight> makeExactLight(const LightSource& light, const Mat3d& rotation) {
+    if (light.environment) return makeEnvironmentLight(*light.environment, rotation);
+    if (light.sun)
+        return makeSunLight(rotation * light.sun->direction, light.sun->halfAngleRadians);
+    return makeBandLimitedLight(rotate(light.lighting, rotation));
 }
 
 Environment makeBackground(const LightSource& light, const Mat3d& rotation) {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "prt/light/environment.h"
 #include "prt/light/lighting.h"
+#include "prt/render/distant_light.h"
 
 namespace prt::cli {
 
@@ -21,11 +23,18 @@ inline constexpr const char* kLightHelp = R"(LIGHT is one of
 /// The layouts of images, "lat-long|angular|…".
 std::string sphereMapNames();
 
+/// A disc in the sky, as sunLighting projects it.
+struct Sun {
+    Vec3d direction{0.0, 1.0, 0.0};
+    double halfAngleRadians = 0.0;
+};
+
 /// What a LIGHT argument stands for.
 struct LightSource {
     Lighting lighting;
-    std::optional<Environment> environment;  ///< where the light is an image
-    SanitiseReport mended;                   ///< what had to be mended in that image
+    std::optional<Environment> environment{};  ///< where the light is an image
+    SanitiseReport mended{};                   ///< what had to be mended in that image
+    std::optional<Sun> sun{};                  ///< where it is one
 };
 
 /// Reads a LIGHT argument.
@@ -38,6 +47,9 @@ LightSource loadLight(const std::string& argument, int bandCount,
 
 /// The sentence that says which texels were mended; nothing where all were good.
 std::optional<std::string> describeMending(const SanitiseReport& mended);
+
+/// The light itself rather than its bands; coefficients stand for themselves.
+std::unique_ptr<DistantLight> makeExactLight(const LightSource& light, const Mat3d& rotation);
 
 /// The light as an image to be seen behind a scene: the environment, or
 /// what the coefficients stand for.

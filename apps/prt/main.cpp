@@ -67,6 +67,7 @@ int run(int argumentCount, char** arguments) {
     prt::cli::addBakeCommand(app);
     prt::cli::addLightCommand(app);
     prt::cli::addRenderCommand(app);
+    prt::cli::addCompareCommand(app);
     prt::cli::addInfoCommand(app);
     prt::cli::addCheckCommand(app);
 

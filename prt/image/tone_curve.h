@@ -13,6 +13,11 @@ float encodeSrgb(float linear);
 /// decodeSrgb(codeValue / 255), from a table.
 float decodeSrgb8(std::uint8_t codeValue);
 
+/// How bright linear Rec. 709 looks: 1 for (1, 1, 1) [IEC 61966-2-1].
+inline float luminance(const Vec3f& rgb) {
+    return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
+}
+
 enum class ToneCurve {
     none,  ///< clamp to [0, 1]
     aces,  ///< Narkowicz' fit of the ACES filmic curve [Narkowicz15]

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "prt/image/tone_curve.h"
 #include "prt/math/alias_table.h"
 #include "prt/math/frame.h"
 
@@ -89,12 +90,11 @@ class TexelSampler {
         weights.reserve(image.pixels.size());
         for (int y = 0; y < image.height; ++y) {
             for (int x = 0; x < image.width; ++x) {
-                const Vec3d radiance(image.at(x, y));
-                const double luminance = 0.2126 * std::abs(radiance.x) +
-                                         0.7152 * std::abs(radiance.y) +
-                                         0.0722 * std::abs(radiance.z);
+                const Vec3f& radiance = image.at(x, y);
+                const float brightness =
+                    luminance({std::abs(radiance.x), std::abs(radiance.y), std::abs(radiance.z)});
                 weights.push_back(
-                    luminance *
+                    static_cast<double>(brightness) *
                     sphereTexel(environment.map, image.width, image.height, x, y).solidAngle);
             }
         }

@@ -72,7 +72,7 @@ PathTracedView pathTraceView(const Scene& scene, const RayScene& rays, const Dis
         blockOptions.progress = [&](const Progress& block) {
             const std::uint64_t done = block.total > 0 ? count * block.done / block.total : count;
             return !options.progress ||
-                   options.progress({block.stage, "pixels", begin + done, pixelCount});
+                   options.progress({"path-trace", "pixels", begin + done, pixelCount});
         };
         const BlockTracer tracer(scene, view.background, cameraRays.findSeenPoints(begin, count));
         tracer.addUp(estimateRadiance(scene, rays, light, tracer.placeOrigins(rays), samplesPerRay,

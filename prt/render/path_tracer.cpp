@@ -204,7 +204,7 @@ RadianceEstimate estimateRadiance(const Scene& scene, const RayScene& rays,
     const auto pathsPerOrigin = static_cast<std::size_t>(sampleCount);
     RadianceEstimate estimate{std::vector<Vec3d>(origins.size()),
                               std::vector<Vec3d>(origins.size())};
-    ProgressReporter progress(options.progress, "path-trace", "points", origins.size());
+    ProgressReporter progress(options.progress, "estimate", "points", origins.size());
     parallelFor(origins.size(), {options.threadCount, originsPerChunk(pathsPerOrigin)},
                 [&](std::size_t begin, std::size_t end) {
                     const std::vector<Moments> moments =
@@ -232,7 +232,7 @@ TransferEstimate estimateTransfer(const Scene& scene, const RayScene& rays, int 
     const std::size_t rowSize = 3 * static_cast<std::size_t>(shCoefficientCount(bandCount));
     TransferEstimate estimate{bandCount, std::vector<double>(origins.size() * rowSize),
                               std::vector<double>(origins.size() * rowSize)};
-    ProgressReporter progress(options.progress, "path-trace", "points", origins.size());
+    ProgressReporter progress(options.progress, "estimate", "points", origins.size());
     parallelFor(
         origins.size(), {options.threadCount, originsPerChunk(pathsPerOrigin)},
         [&](std::size_t begin, std::size_t end) {

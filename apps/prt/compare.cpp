@@ -1,0 +1,298 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "apps/prt/arguments.h"
+#include "apps/prt/commands.h"
+#include "apps/prt/interrupts.h"
+#include "apps/prt/light_argument.h"
+#include "apps/prt/relit_asset.h"
+#include "apps/prt/report.h"
+#include "apps/prt/stage_log.h"
+#include "apps/prt/staged_folder.h"
+#include "apps/prt/view_options.h"
+#include "prt/base/error.h"
+
+namespace prt::cli {
+namespace {
+
+static_assert(kEveryBounce == kUnlimitedBounces);
+
+/// The numbers of bands from the first to the last.
+struct BandCounts {
+    int first = 0;
+    int last = -1;  // none
+};
+
+struct CompareArguments {
+    std::string asset;
+    std::vector<std::string> lights;
+    std::string output;
+    ViewArguments view{.size = {640, 360}};
+    std::optional<Transport> transport;
+    std::optional<int> bounceCount;
+    BandCounts bandCounts;
+    bool triple = false;
+    int referenceSamples = 256;
+    Vec3d rotationDegrees{0.0, 0.0, 0.0};
+    DisplayOptions display;
+    std::uint64_t seed = 1;
+    int threadCount = 0;
+    std::string command;  ///< as it was given
+};
+
+std::optional<BandCounts> parseBandCounts(std::string_view text) {
+    const std::size_t colon = text.find(':');
+    const auto first = parseNumber(text.substr(0, colon));
+    const auto last = colon == std::string_view::npos ? first : parseNumber(text.substr(colon + 1));
+    if (!first || !last || *first < 1.0 || *last < *first || *last > kMaxBandCount)
+        return std::nullopt;
+    const BandCounts counts{static_cast<int>(*first), static_cast<int>(*last)};
+    return counts.first == *first && counts.last == *last ? std::optional(counts) : std::nullopt;
+}
+
+/// Compares one asset with its path-traced truth, under one light after the other.
+class AssetComparison {
+  public:
+    AssetComparison(const CompareArguments& arguments, StageLog& log)
+        : arguments_(arguments),
+          log_(log),
+          asset_(readTimed()),
+          transport_(arguments.transport.value_or(fullestTransport(asset_.transfer))),
+          camera_(chooseCamera(arguments.view, asset_.scene, arguments.asset)),
+          rotation_(rotationFromDegrees(arguments.rotationDegrees)),
+          rays_(asset_.scene, {.threadCount = arguments.threadCount}) {
+        if (arguments.bandCounts.last > asset_.transfer.bandCount)
+            throw Error(ErrorCode::invalidOption,
+                        fmt::format("was baked with {} bands only", asset_.transfer.bandCount),
+                        arguments.asset, "ask for fewer --band-counts, or bake more --bands");
+        referenceOptions_ = {
+            .view = {.width = arguments.view.size.width,
+                     .height = arguments.view.size.height,
+                     .seed = arguments.seed,
+                     .threadCount = arguments.threadCount,
+                     .progress = log.callback()},
+            .samplesPerVertex = arguments.referenceSamples,
+            .bounceCount = arguments.bounceCount.value_or(
+                transport_ == Transport::interreflected ? asset_.provenance.bounceCount : 0)};
+        const int raysPerPixel =
+            referenceOptions_.view.samplesPerAxis * referenceOptions_.view.samplesPerAxis;
+        referenceOptions_.samplesPerRay =
+            std::max(2, (arguments.referenceSamples + raysPerPixel - 1) / raysPerPixel);
+    }
+
+    ReportLight compareUnder(const LightSource& source, const std::string& name) {
+        const Lighting lighting = bandsOf(source, asset_.transfer.bandCount);
+        const std::vector<Vec3f> vertexRadiance = relight(transport_, lighting);
+        ReportLight light{.name = name, .bandCount = lighting.bandCount};
+        light.relit = render(vertexRadiance);
+
+        const Reference sameBands = trace("path tracing in bands", *makeBandLimitedLight(lighting));
+        const Reference itself = trace("path tracing", *makeExactLight(source, rotation_));
+        const Stopwatch watch;
+        light.sameBands = judge(light.relit, vertexRadiance, sameBands);
+        light.itself = judge(light.relit, vertexRadiance, itself);
+        finishStage("measure", watch, name);
+
+        for (int n = arguments_.bandCounts.first; n <= arguments_.bandCounts.last; ++n) {
+            const Image picture = render(relight(transport_, bandsOf(source, n)));
+            light.byBandCount.emplace_back(
+                n,
+                JudgedPicture{picture, comparePictures(picture, itself.view, arguments_.display)});
+        }
+        if (arguments_.triple) {
+            for (const Transport layer :
+                 {Transport::unshadowed, Transport::shadowed, Transport::interreflected}) {
+                if (layer > transport_) continue;
+                const Image picture = render(relight(layer, lighting));
+                light.byTransport.emplace_back(
+                    layer, JudgedPicture{picture, comparePictures(picture, sameBands.view,
+                                                                  arguments_.display)});
+            }
+        }
+        return light;
+    }
+
+    /// All but the lights.
+    Report makeReport() const {
+        const CompressedLayer* layer = asset_.transfer.findLayer(transport_);
+        const std::size_t receivers = std::max<std::size_t>(asset_.transfer.receiverCount, 1);
+        return {.asset = arguments_.asset,
+                .command = arguments_.command,
+                .provenance = asset_.provenance,
+                .vertexCount = asset_.scene.vertexCount(),
+                .triangleCount = asset_.scene.triangleCount(),
+                .assetBytes = std::filesystem::file_size(arguments_.asset),
+                .bytesPerVertex = layer ? layer->data.size() / receivers : 0,
+                .transport = transport_,
+                .referenceSamples = referenceOptions_.samplesPerRay *
+                                    referenceOptions_.view.samplesPerAxis *
+                                    referenceOptions_.view.samplesPerAxis,
+                .bounceCount = referenceOptions_.bounceCount,
+                .display = arguments_.display,
+                .seconds = seconds_};
+    }
+
+  private:
+    Asset readTimed() {
+        const Stopwatch watch;
+        Asset asset = readPreparedAsset(arguments_.asset, log_);
+        addSeconds("load", watch.seconds());
+        return asset;
+    }
+
+    Lighting bandsOf(const LightSource& source, int bandCount) const {
+        return truncate(rotate(source.lighting, rotation_),
+                        std::min(bandCount, source.lighting.bandCount));
+    }
+
+    std::vector<Vec3f> relight(Transport transport, const Lighting& lighting) {
+        const Stopwatch watch;
+        std::vector<Vec3f> radiance =
+            relightVertices(asset_, arguments_.asset, transport, lighting);
+        addSeconds("relight", watch.seconds());
+        return radiance;
+    }
+
+    Image render(const std::vector<Vec3f>& vertexRadiance) {
+        const Stopwatch watch;
+        Image picture =
+            renderView(asset_.scene, rays_, vertexRadiance, camera_, referenceOptions_.view);
+        addSeconds("render", watch.seconds());
+        return picture;
+    }
+
+    Reference trace(const std::string& stage, const DistantLight& light) {
+        const Stopwatch watch;
+        Reference reference =
+            traceReference(asset_.scene, rays_, light, camera_, referenceOptions_);
+        addSeconds(stage, watch.seconds());
+        return reference;
+    }
+
+    JudgedReference judge(const Image& relit, const std::vector<Vec3f>& vertexRadiance,
+                          const Reference& reference) const {
+        return {reference.view.radiance, comparePictures(relit, reference.view, arguments_.display),
+                compareAtVertices(vertexRadiance, reference), reference.vertices.size()};
+    }
+
+    void finishStage(const std::string& stage, const Stopwatch& watch, const std::string& summary) {
+        addSeconds(stage, watch.seconds());
+        log_.finishStage(stage, watch.seconds(), summary);
+    }
+
+    void addSeconds(const std::string& stage, double seconds) {
+        const auto known = std::find_if(seconds_.begin(), seconds_.end(),
+                                        [&](const auto& entry) { return entry.first == stage; });
+        if (known == seconds_.end())
+            seconds_.emplace_back(stage, seconds);
+        else
+            known->second += seconds;
+    }
+
+    const CompareArguments& arguments_;
+    StageLog& log_;
+    std::vector<std::pair<std::string, double>> seconds_;
+    Asset asset_;
+    Transport transport_;
+    Camera camera_;
+    Mat3d rotation_;
+    RayScene rays_;
+    ReferenceOptions referenceOptions_;
+};
+
+void runCompare(const CompareArguments& arguments) {
+    {
+        const DeferInterrupts whileProbing;
+        StagedFolder::check(arguments.output);
+    }
+    stopIfInterrupted();
+
+    StageLog log;
+    AssetComparison comparison(arguments, log);
+    std::vector<LightSource> sources;
+    for (const std::string& light : arguments.lights) {
+        sources.push_back(loadLight(light, kMaxBandCount));
+        if (const auto mending = describeMending(sources.back().mended))
+            log.warn(light + ": " + *mending);
+    }
+    std::vector<ReportLight> lights;
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        lights.push_back(comparison.compareUnder(sources[i], arguments.lights[i]));
+    Report report = comparison.makeReport();
+    report.lights = std::move(lights);
+
+    const DeferInterrupts whileWriting;
+    const Stopwatch watch;
+    StagedFolder folder(arguments.output);
+    writeReport(folder.path(), report);
+    stopIfInterrupted();
+    folder.commit();
+    log.finishStage("write", watch.seconds(),
+                    (std::filesystem::path(arguments.output) / "index.html").string());
+}
+
+constexpr const char* kFooter =
+    R"(Examples: prt compare statue.prt.glb --light museum.exr -o report
+          prt compare slab.prt.glb --light sun:30,60,0 --light sun:30,60,20 --band-counts 2:10 -o report
+
+Open REPORT_DIR/index.html. The relit asset is held against pictures of our path tracer, of the same
+camera and the same rays from it: under the light in the asset's bands, where only the bake can be at
+fault, and under the light itself, where bands are missing too. comparison.json has the numbers, and
+the .exr files the radiance.
+
+)";
+
+}  // namespace
+
+void addCompareCommand(CLI::App& app) {
+    const auto arguments = std::make_shared<CompareArguments>();
+    CLI::App* command = app.add_subcommand(
+        "compare", "Hold a relit asset against path-traced truth: a page of pictures and errors");
+    command->footer(std::string(kFooter) + kLightHelp);
+    command->add_option("ASSET", arguments->asset, "what prt bake wrote")->required();
+    command->add_option("--light", arguments->lights, "a light, as below; may be given again")
+        ->type_name("LIGHT")
+        ->required()
+        ->allow_extra_args(false);
+    command->add_option("-o,--output", arguments->output, "the folder to make")
+        ->type_name("REPORT_DIR")
+        ->required();
+    addIntegerOption(*command, "--reference-samples", arguments->referenceSamples, 32, 1 << 20,
+                     "paths a pixel and a vertex; rounded up to a multiple of 16");
+    addParsedOption(*command, "--transport", arguments->transport, parseTransport,
+                    "unshadowed|shadowed|interreflected",
+                    "how much of light transport to compare [all there is]");
+    addParsedOption(*command, "--bounces", arguments->bounceCount, parseBounceCount, "N|inf",
+                    "indirect bounces of the reference [as many as were baked]");
+    addParsedOption(*command, "--band-counts", arguments->bandCounts, parseBandCounts,
+                    "N|FIRST:LAST",
+                    "also relight with so many bands of the light, each held against the truth");
+    command->add_flag("--triple", arguments->triple,
+                      "also show the asset unshadowed, shadowed and interreflected");
+    addRotationOption(*command, arguments->rotationDegrees);
+    addViewOptions(*command, arguments->view);
+    addDisplayOptions(*command, arguments->display);
+    addParsedOption(*command, "--seed", arguments->seed, parseSeed, "N", "of the random paths")
+        ->default_str("1");
+    addIntegerOption(*command, "--threads", arguments->threadCount, 0, 4096, "0 for one a core");
+
+    command->callback([arguments, command] {
+        arguments->command = "prt compare " + arguments->asset;
+        for (const CLI::Option* option : command->get_options())
+            for (const std::string& value : option->results())
+                if (!option->get_lnames().empty() && option->get_lnames().front() != "output")
+                    arguments->command +=
+                        fmt::format(" --{}{}", option->get_lnames().front(),
+                                    option->get_expected_min() == 0 ? "" : " " + value);
+        runCompare(*arguments);
+    });
+}
+
+}  // namespace prt::cli

@@ -1,0 +1,306 @@
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "apps/prt/report.h"
+#include "apps/prt/report_style.h"
+#include "apps/prt/text.h"
+#include "prt/image/false_color.h"
+
+namespace prt::cli {
+namespace {
+
+/// Text that cannot be mistaken for tags.
+std::string escape(std::string_view text) {
+    std::string escaped;
+    for (const char letter : text) {
+        if (letter == '&')
+            escaped += "&amp;";
+        else if (letter == '<')
+            escaped += "&lt;";
+        else if (letter == '>')
+            escaped += "&gt;";
+        else if (letter == '"')
+            escaped += "&quot;";
+        else
+            escaped += letter;
+    }
+    return escaped;
+}
+
+// ── Numbers ──────────────────────────────────────────────────────────────────────────────────────
+
+std::string formatRadiance(double radiance) {
+    return fmt::format("{:.3g}", radiance);
+}
+
+std::string formatPercent(double part) {
+    const double percent = 100.0 * part;
+    return fmt::format("{:.{}f} %", percent, percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0);
+}
+
+std::string formatDecibels(double decibels) {
+    return std::isfinite(decibels) ? fmt::format("{:.1f} dB", decibels) : "equal";
+}
+
+/// How far the lighting's bands, or all of the light, are from what was relit.
+std::string formatRow(const std::string& name, const PictureComparison& comparison,
+                      const std::string& more = {}) {
+    const NoisyError& error = comparison.error;
+    return fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.4f}</td>{}"
+        "</tr>\n",
+        name, formatRadiance(error.error.rmse), formatRadiance(error.noiseRmse),
+        formatRadiance(error.rmseWithoutNoise()), formatPercent(error.relativeRmseWithoutNoise()),
+        formatDecibels(comparison.psnr), comparison.meanFlip, more);
+}
+
+constexpr const char* kErrorHeads =
+    "<th>RMSE</th><th>noise of the truth</th><th>RMSE less noise</th><th>relative</th>"
+    "<th>PSNR</th><th>FLIP</th>";
+
+std::string nameReference(const ReportLight& light, bool inBands) {
+    return inBands ? fmt::format("the light in {} bands", light.bandCount)
+                   : std::string("the light itself");
+}
+
+// ── Pictures ─────────────────────────────────────────────────────────────────────────────────────
+
+std::string figure(const std::string& name, const std::string& caption) {
+    return fmt::format(
+        "<figure><a href=\"{0}.png\"><img src=\"{0}.png\" alt=\"\"></a><figcaption>{1}"
+        "</figcaption></figure>\n",
+        name, caption);
+}
+
+std::string legend(std::span<const Rgba8> colors, const std::string& low, const std::string& high) {
+    std::string stops;
+    for (const Rgba8& color : colors)
+        stops += fmt::format(", rgb({} {} {})", color.red, color.green, color.blue);
+    return fmt::format(
+        "<p class=\"legend\">{}<span><div style=\"background: linear-gradient(to right{})\"></div>"
+        "</span>{}</p>\n",
+        low, stops, high);
+}
+
+std::string formatSlider(std::size_t index, const ReportLight& light) {
+    const std::string relit = pictureName(index, kRelit);
+    const std::string itself = pictureName(index, kItself);
+    const std::string sameBands = pictureName(index, kSameBands);
+    return fmt::format(
+        R"(<div class="slider"><img id="truth{0}" src="{2}.png" alt="path-traced"><img class="over"
+ src="{1}.png" alt="relit"><i></i><u>relit</u><u>path-traced</u><input type="range" min="0" max="100" step="0.1"
+ aria-label="how much of the relit picture to show"></div>
+<div class="choice"><span class="soft">Drag over the picture. The truth beside it is under</span>
+<label><input type="radio" name="truth{0}" value="{2}.png" checked> {4}</label>
+<label><input type="radio" name="truth{0}" value="{3}.png"> {5}</label></div>
+)",
+        index, relit, itself, sameBands, nameReference(light, false), nameReference(light, true));
+}
+
+std::string formatPictures(std::size_t index, const ReportLight& light) {
+    const float scale = differenceScale(light);
+    std::string html = "<h3>Side by side</h3>\n<div class=\"pictures\">\n";
+    html += figure(pictureName(index, kRelit), "<b>Relit</b> from the asset");
+    html += figure(pictureName(index, kSameBands),
+                   fmt::format("<b>Path-traced</b> under {}", nameReference(light, true)));
+    html += figure(pictureName(index, kItself),
+                   fmt::format("<b>Path-traced</b> under {}", nameReference(light, false)));
+    html += "</div>\n<h3>What differs</h3>\n<div class=\"pictures two\">\n";
+    for (const bool inBands : {true, false}) {
+        const std::string name = pictureName(index, inBands ? kSameBands : kItself);
+        html += figure(name + "-difference",
+                       fmt::format("<b>Relit less path-traced</b> under {}: red is too bright, "
+                                   "blue too dark",
+                                   nameReference(light, inBands)));
+        html += figure(name + "-flip", fmt::format("<b>FLIP</b>, what a person sees who flips "
+                                                   "between the two, under {}",
+                                                   nameReference(light, inBands)));
+    }
+    html += "</div>\n";
+    html += legend(
+        signedColors(), fmt::format("−{:.3g}", scale),
+        fmt::format("+{:.3g} of luminance, a quarter of the truth's root mean square", scale));
+    html += legend(unitColors(), "0", "1 FLIP, from no difference to black against white");
+    return html;
+}
+
+// ── Sections ─────────────────────────────────────────────────────────────────────────────────────
+
+std::string card(const std::string& number, const std::string& title, const std::string& meaning) {
+    return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span><p>{}</p></div>\n", number,
+                       title, meaning);
+}
+
+std::string formatCards(const ReportLight& light) {
+    const NoisyError& bake = light.sameBands.comparison.error;
+    const NoisyError& all = light.itself.comparison.error;
+    const double noise =
+        bake.error.rmse > 0.0 ? bake.noiseRmse * bake.error.relativeRmse / bake.error.rmse : 0.0;
+    return "<div class=\"cards\">\n" +
+           card(formatPercent(bake.relativeRmseWithoutNoise()), "error of the bake",
+                fmt::format("Against path tracing under the light in the same {} bands: what the "
+                            "rays of the bake, interpolation between vertices and storage cost.",
+                            light.bandCount)) +
+           card(formatPercent(all.relativeRmseWithoutNoise()), "error of bake and bands",
+                fmt::format("Against path tracing under the light itself: what it costs as well "
+                            "to have only {} bands of it.",
+                            light.bandCount)) +
+           card(formatPercent(noise), "noise of the truth",
+                "What is left of the randomness of paths in the first reference. It is taken out "
+                "of the two errors.") +
+           "</div>\n";
+}
+
+std::string formatErrors(const ReportLight& light) {
+    std::string rows;
+    for (const bool inBands : {true, false}) {
+        const JudgedReference& reference = inBands ? light.sameBands : light.itself;
+        const NoisyError& vertices = reference.atVertices;
+        rows += formatRow(
+            "against " + nameReference(light, inBands), reference.comparison,
+            fmt::format("<td>{}</td><td>{}</td>", formatRadiance(vertices.rmseWithoutNoise()),
+                        formatPercent(vertices.relativeRmseWithoutNoise())));
+    }
+    return fmt::format(
+        "<h3>Numbers</h3>\n<table><tr><th></th>{}<th>RMSE at vertices</th>"
+        "<th>relative</th></tr>\n{}</table>\n",
+        kErrorHeads, rows);
+}
+
+std::string formatTransports(std::size_t index, const ReportLight& light) {
+    if (light.byTransport.empty()) return {};
+    std::string pictures, rows;
+    for (const auto& [transport, judged] : light.byTransport) {
+        const std::string name(transportName(transport));
+        pictures +=
+            figure(pictureName(index, name),
+                   fmt::format("<b>{}</b>, {} off", name,
+                               formatPercent(judged.comparison.error.relativeRmseWithoutNoise())));
+        rows += formatRow(name, judged.comparison);
+    }
+    return fmt::format(
+        "<h3>What each kind of transport is worth</h3>\n<p class=\"soft\">The same "
+        "asset with ever more of its transport, each against path tracing under {}."
+        "</p>\n<div class=\"pictures\">\n{}</div>\n<p></p>\n<table><tr><th></th>{}"
+        "</tr>\n{}</table>\n",
+        nameReference(light, true), pictures, kErrorHeads, rows);
+}
+
+std::string formatLight(std::size_t index, const ReportLight& light) {
+    return fmt::format("<h2>Light: <code>{}</code></h2>\n", escape(light.name)) +
+           formatCards(light) + formatSlider(index, light) + formatPictures(index, light) +
+           formatErrors(light) + formatTransports(index, light);
+}
+
+/// Bands down, lights across, the truth below: how sharp a light each number of bands can hold.
+std::string formatBandTable(const Report& report) {
+    if (report.lights.front().byBandCount.empty()) return {};
+    std::string html =
+        "<h2>How many bands a light needs</h2>\n<p class=\"soft\">Relit with ever more bands of "
+        "each light. The number is the relative RMSE against path tracing under the light itself, "
+        "which stands below; its noise is taken out.</p>\n<table class=\"matrix\"><tr><th>bands"
+        "</th>";
+    for (const ReportLight& light : report.lights)
+        html += fmt::format("<td><code>{}</code></td>", escape(light.name));
+    html += "</tr>\n";
+    const auto cell = [](const std::string& name, const std::string& caption) {
+        return fmt::format("<td><a href=\"{0}.png\"><img src=\"{0}.png\" alt=\"\"></a>{1}</td>",
+                           name, caption);
+    };
+    for (std::size_t row = 0; row < report.lights.front().byBandCount.size(); ++row) {
+        const int bandCount = report.lights.front().byBandCount[row].first;
+        html += fmt::format("<tr><td>{}</td>", bandCount);
+        for (std::size_t i = 0; i < report.lights.size(); ++i)
+            html += cell(pictureName(i, bandPictureKind(bandCount)),
+                         formatPercent(report.lights[i]
+                                           .byBandCount[row]
+                                           .second.comparison.error.relativeRmseWithoutNoise()));
+        html += "</tr>\n";
+    }
+    html += "<tr><td>truth</td>";
+    for (std::size_t i = 0; i < report.lights.size(); ++i)
+        html += cell(pictureName(i, kItself), "path-traced");
+    return html + "</tr></table>\n";
+}
+
+constexpr const char* kHowToRead = R"(<h2>How to read the numbers</h2>
+<dl>
+<dt>RMSE</dt><dd>The root of the mean squared difference of radiance, over all pixels and channels, in W·sr⁻¹·m⁻².
+ Pixels where no surface is seen agree.</dd>
+<dt>noise of the truth</dt><dd>The RMSE that the path-traced picture has by chance alone, from the variance of its paths.
+ More <code>--reference-samples</code> make it smaller, by 2 for 4 times as many.</dd>
+<dt>RMSE less noise</dt><dd>√(RMSE² − noise²): what is left is the fault of the asset. 0 if the noise explains all.</dd>
+<dt>relative</dt><dd>That, over the root mean square of the truth: 1 % is hard to see, 10 % is plain.</dd>
+<dt>PSNR</dt><dd>Of the 8-bit pictures, noise included. Above 40 dB they look alike; each 6 dB less is twice the error.</dd>
+<dt>FLIP</dt><dd>The mean of the FLIP map, noise included: 0 if nobody could tell the pictures apart, 1 for black against white,
+ on a screen of 67 pixels a degree.</dd>
+<dt>RMSE at vertices</dt><dd>The same for the light that arrives at vertices, before the surface's colour. There nothing is
+ interpolated: what is more in the picture than here is for want of smaller triangles.</dd>
+</dl>
+)";
+
+std::string formatFacts(const Report& report) {
+    const auto fact = [](std::string_view name, const std::string& value) {
+        return fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
+    };
+    std::string times;
+    for (const auto& [stage, seconds] : report.seconds)
+        times += fmt::format("{}{} {:.2f} s", times.empty() ? "" : " · ", stage, seconds);
+    const Provenance& provenance = report.provenance;
+    return "<h2>How it was made</h2>\n<dl>\n" +
+           fact("asset",
+                fmt::format("<code>{}</code>: {}, {}; {}, {} a vertex as shown",
+                            escape(report.asset), formatCount(report.vertexCount, "vertex"),
+                            formatCount(report.triangleCount, "triangle"),
+                            formatBytes(report.assetBytes),
+                            formatCount(report.bytesPerVertex, "byte"))) +
+           fact("baked with",
+                fmt::format(
+                    "<code>{}</code>, by {}; {} made", escape(provenance.command),
+                    escape(provenance.generator),
+                    formatCount(static_cast<std::uint64_t>(provenance.bounceCount), "bounce"))) +
+           fact("shown",
+                fmt::format("{} transport; exposure {:+g} stops, tone curve {}",
+                            transportName(report.transport), report.display.exposureStops,
+                            report.display.toneCurve == ToneCurve::aces ? "ACES" : "none")) +
+           fact("truth",
+                fmt::format(
+                    "{} paths a pixel, {}",
+                    formatCount(static_cast<std::uint64_t>(report.referenceSamples)),
+                    report.bounceCount == kUnlimitedBounces
+                        ? "bounces without end"
+                        : formatCount(static_cast<std::uint64_t>(report.bounceCount), "bounce"))) +
+           fact("times", times) +
+           fact("this page", fmt::format("<code>{}</code>; numbers in <a href=\"comparison.json\">"
+                                         "comparison.json</a>, radiance in the .exr files",
+                                         escape(report.command))) +
+           "</dl>\n";
+}
+
+}  // namespace
+
+std::string formatReportPage(const Report& report) {
+    std::string lights;
+    for (std::size_t i = 0; i < report.lights.size(); ++i)
+        lights += formatLight(i, report.lights[i]);
+    const std::string asset = escape(std::filesystem::path(report.asset).filename().string());
+    return fmt::format(R"(<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{0} against the truth</title>
+<style>{1}</style>
+<h1>{0} against the truth</h1>
+<p class="soft">What the baked asset shows when it is relit, held against pictures by a path tracer, which knows no bands and no
+vertices. Both look along the same rays, so only light can differ.</p>
+)",
+                       asset, kReportStyle) +
+           formatBandTable(report) + lights + kHowToRead + formatFacts(report) +
+           fmt::format("<script>{}</script>\n</html>\n", kReportScript);
+}
+
+}  // namespace prt::cli

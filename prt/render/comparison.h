@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "prt/image/error_metrics.h"
+#include "prt/image/tone_curve.h"
+#include "prt/render/path_traced_view.h"
+
+namespace prt {
+
+struct ReferenceOptions {
+    RenderOptions view{};    ///< threads, progress and seed count for paths too
+    int samplesPerRay = 16;  ///< paths for each of the samplesPerAxis² rays of a pixel
+    int samplesPerVertex = 256;
+    int bounceCount = kUnlimitedBounces;  ///< indirect bounces (C8)
+    std::size_t maxVertexCount = 4096;    ///< of those that are looked at, evenly through the list
+};
+
+/// The truth about a view of a scene under a light, and about some of its vertices.
+struct Reference {
+    PathTracedView view;
+    std::vector<std::size_t> vertices;  ///< scene-wide numbers
+    RadianceEstimate atVertices;        ///< B before albedo, one a vertex
+};
+
+/// Path-traces a reference. @throws Error invalidOption, cancelled
+Reference traceReference(const Scene& scene, const RayScene& rays, const DistantLight& light,
+                         const Camera& camera, const ReferenceOptions& options);
+
+/// An error, and how much of it is the noise of the reference.
+struct NoisyError {
+    ImageError error;        ///< of radiance, noise included
+    double noiseRmse = 0.0;  ///< that the reference would have against another of its kind's mean
+
+    /// The error without the noise, whose squares add up.
+    double rmseWithoutNoise() const;
+    double relativeRmseWithoutNoise() const;
+};
+
+/// A relit picture held against a reference, pixel by pixel.
+struct PictureComparison {
+    NoisyError error;
+    double psnr = 0.0;               ///< decibels, of the pictures for the screen
+    double meanFlip = 0.0;           ///< of the same
+    ImageOf<float> flip;             ///< 0 … 1
+    ImageOf<float> luminanceChange;  ///< relit less reference, linear
+};
+
+/// @param picture  along the rays of the reference, so that edges agree and only light can differ
+/// @param display  how both become pictures for the screen
+PictureComparison comparePictures(const Image& picture, const PathTracedView& reference,
+                                  const DisplayOptions& display);
+
+/// Relit B held against a reference at its vertices, where nothing is interpolated.
+///
+/// @param vertexRadiance  of all vertices of the scene
+NoisyError compareAtVertices(std::span<const Vec3f> vertexRadiance, const Reference& reference);
+
+}  // namespace prt
