@@ -47,11 +47,13 @@ void writePictures(const fs::path& folder, std::size_t index, const ReportLight&
 }
 
 Json describeError(const NoisyError& error) {
-    return {{"rmse", error.error.rmse},
-            {"relative_rmse", error.error.relativeRmse},
-            {"noise_rmse", error.noiseRmse},
-            {"rmse_without_noise", error.rmseWithoutNoise()},
-            {"relative_rmse_without_noise", error.relativeRmseWithoutNoise()}};
+    return {
+        {"rmse", error.error.rmse},
+        {"relative_rmse", error.error.relativeRmse},
+        {"noise_rmse", error.noiseRmse},
+        {"rmse_without_noise", error.rmseWithoutNoise()},
+        {"relative_rmse_without_noise", error.relative(error.rmseWithoutNoise())},
+        {"largest_relative_rmse_without_noise", error.relative(error.largestRmseWithoutNoise())}};
 }
 
 Json describe(const PictureComparison& comparison) {

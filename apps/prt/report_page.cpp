@@ -42,6 +42,17 @@ std::string formatPercent(double part) {
     return fmt::format("{:.{}f} %", percent, percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0);
 }
 
+/// What is left without noise, or what it is below where the noise hides it.
+std::string formatExcess(const NoisyError& error) {
+    if (error.isSignificant()) return formatRadiance(error.rmseWithoutNoise());
+    return "&lt; " + formatRadiance(error.largestRmseWithoutNoise());
+}
+
+std::string formatRelativeExcess(const NoisyError& error) {
+    if (error.isSignificant()) return formatPercent(error.relative(error.rmseWithoutNoise()));
+    return "&lt; " + formatPercent(error.relative(error.largestRmseWithoutNoise()));
+}
+
 std::string formatDecibels(double decibels) {
     return std::isfinite(decibels) ? fmt::format("{:.1f} dB", decibels) : "equal";
 }
@@ -54,8 +65,8 @@ std::string formatRow(const std::string& name, const PictureComparison& comparis
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.4f}</td>{}"
         "</tr>\n",
         name, formatRadiance(error.error.rmse), formatRadiance(error.noiseRmse),
-        formatRadiance(error.rmseWithoutNoise()), formatPercent(error.relativeRmseWithoutNoise()),
-        formatDecibels(comparison.psnr), comparison.meanFlip, more);
+        formatExcess(error), formatRelativeExcess(error), formatDecibels(comparison.psnr),
+        comparison.meanFlip, more);
 }
 
 constexpr const char* kErrorHeads =
@@ -81,8 +92,9 @@ std::string legend(std::span<const Rgba8> colors, const std::string& low, const 
     for (const Rgba8& color : colors)
         stops += fmt::format(", rgb({} {} {})", color.red, color.green, color.blue);
     return fmt::format(
-        "<p class=\"legend\">{}<span><div style=\"background: linear-gradient(to right{})\"></div>"
-        "</span>{}</p>\n",
+        "<div class=\"legend\">{}<div style=\"background: linear-gradient(to "
+        "right{})\"></div>{}</div>"
+        "\n",
         low, stops, high);
 }
 
@@ -138,18 +150,16 @@ std::string card(const std::string& number, const std::string& title, const std:
 std::string formatCards(const ReportLight& light) {
     const NoisyError& bake = light.sameBands.comparison.error;
     const NoisyError& all = light.itself.comparison.error;
-    const double noise =
-        bake.error.rmse > 0.0 ? bake.noiseRmse * bake.error.relativeRmse / bake.error.rmse : 0.0;
     return "<div class=\"cards\">\n" +
-           card(formatPercent(bake.relativeRmseWithoutNoise()), "error of the bake",
+           card(formatRelativeExcess(bake), "error of the bake",
                 fmt::format("Against path tracing under the light in the same {} bands: what the "
                             "rays of the bake, interpolation between vertices and storage cost.",
                             light.bandCount)) +
-           card(formatPercent(all.relativeRmseWithoutNoise()), "error of bake and bands",
+           card(formatRelativeExcess(all), "error of bake and bands",
                 fmt::format("Against path tracing under the light itself: what it costs as well "
                             "to have only {} bands of it.",
                             light.bandCount)) +
-           card(formatPercent(noise), "noise of the truth",
+           card(formatPercent(bake.relative(bake.noiseRmse)), "noise of the truth",
                 "What is left of the randomness of paths in the first reference. It is taken out "
                 "of the two errors.") +
            "</div>\n";
@@ -160,10 +170,9 @@ std::string formatErrors(const ReportLight& light) {
     for (const bool inBands : {true, false}) {
         const JudgedReference& reference = inBands ? light.sameBands : light.itself;
         const NoisyError& vertices = reference.atVertices;
-        rows += formatRow(
-            "against " + nameReference(light, inBands), reference.comparison,
-            fmt::format("<td>{}</td><td>{}</td>", formatRadiance(vertices.rmseWithoutNoise()),
-                        formatPercent(vertices.relativeRmseWithoutNoise())));
+        rows += formatRow("against " + nameReference(light, inBands), reference.comparison,
+                          fmt::format("<td>{}</td><td>{}</td>", formatExcess(vertices),
+                                      formatRelativeExcess(vertices)));
     }
     return fmt::format(
         "<h3>Numbers</h3>\n<table><tr><th></th>{}<th>RMSE at vertices</th>"
@@ -176,10 +185,9 @@ std::string formatTransports(std::size_t index, const ReportLight& light) {
     std::string pictures, rows;
     for (const auto& [transport, judged] : light.byTransport) {
         const std::string name(transportName(transport));
-        pictures +=
-            figure(pictureName(index, name),
-                   fmt::format("<b>{}</b>, {} off", name,
-                               formatPercent(judged.comparison.error.relativeRmseWithoutNoise())));
+        pictures += figure(
+            pictureName(index, name),
+            fmt::format("<b>{}</b>, {} off", name, formatRelativeExcess(judged.comparison.error)));
         rows += formatRow(name, judged.comparison);
     }
     return fmt::format(
@@ -196,35 +204,29 @@ std::string formatLight(std::size_t index, const ReportLight& light) {
            formatErrors(light) + formatTransports(index, light);
 }
 
-/// Bands down, lights across, the truth below: how sharp a light each number of bands can hold.
+/// Lights down, bands across, the truth at the end: how sharp a light each number of bands can
+/// hold.
 std::string formatBandTable(const Report& report) {
     if (report.lights.front().byBandCount.empty()) return {};
     std::string html =
         "<h2>How many bands a light needs</h2>\n<p class=\"soft\">Relit with ever more bands of "
         "each light. The number is the relative RMSE against path tracing under the light itself, "
-        "which stands below; its noise is taken out.</p>\n<table class=\"matrix\"><tr><th>bands"
-        "</th>";
-    for (const ReportLight& light : report.lights)
-        html += fmt::format("<td><code>{}</code></td>", escape(light.name));
-    html += "</tr>\n";
+        "which stands last; its noise is taken out.</p>\n<table class=\"matrix\"><tr><th></th>";
+    for (const auto& [bandCount, judged] : report.lights.front().byBandCount)
+        html += fmt::format("<td>{} {}</td>", bandCount, bandCount == 1 ? "band" : "bands");
+    html += "<td>truth</td></tr>\n";
     const auto cell = [](const std::string& name, const std::string& caption) {
         return fmt::format("<td><a href=\"{0}.png\"><img src=\"{0}.png\" alt=\"\"></a>{1}</td>",
                            name, caption);
     };
-    for (std::size_t row = 0; row < report.lights.front().byBandCount.size(); ++row) {
-        const int bandCount = report.lights.front().byBandCount[row].first;
-        html += fmt::format("<tr><td>{}</td>", bandCount);
-        for (std::size_t i = 0; i < report.lights.size(); ++i)
+    for (std::size_t i = 0; i < report.lights.size(); ++i) {
+        html += fmt::format("<tr><td><code>{}</code></td>", escape(report.lights[i].name));
+        for (const auto& [bandCount, judged] : report.lights[i].byBandCount)
             html += cell(pictureName(i, bandPictureKind(bandCount)),
-                         formatPercent(report.lights[i]
-                                           .byBandCount[row]
-                                           .second.comparison.error.relativeRmseWithoutNoise()));
-        html += "</tr>\n";
+                         formatRelativeExcess(judged.comparison.error));
+        html += cell(pictureName(i, kItself), "path-traced") + "</tr>\n";
     }
-    html += "<tr><td>truth</td>";
-    for (std::size_t i = 0; i < report.lights.size(); ++i)
-        html += cell(pictureName(i, kItself), "path-traced");
-    return html + "</tr></table>\n";
+    return html + "</table>\n";
 }
 
 constexpr const char* kHowToRead = R"(<h2>How to read the numbers</h2>
@@ -233,7 +235,8 @@ constexpr const char* kHowToRead = R"(<h2>How to read the numbers</h2>
  Pixels where no surface is seen agree.</dd>
 <dt>noise of the truth</dt><dd>The RMSE that the path-traced picture has by chance alone, from the variance of its paths.
  More <code>--reference-samples</code> make it smaller, by 2 for 4 times as many.</dd>
-<dt>RMSE less noise</dt><dd>√(RMSE² − noise²): what is left is the fault of the asset. 0 if the noise explains all.</dd>
+<dt>RMSE less noise</dt><dd>√(RMSE² − noise²), the fault of the asset. Where the noise may
+ explain it all, “&lt;” and the most that it may be, by two standard deviations.</dd>
 <dt>relative</dt><dd>That, over the root mean square of the truth: 1 % is hard to see, 10 % is plain.</dd>
 <dt>PSNR</dt><dd>Of the 8-bit pictures, noise included. Above 40 dB they look alike; each 6 dB less is twice the error.</dd>
 <dt>FLIP</dt><dd>The mean of the FLIP map, noise included: 0 if nobody could tell the pictures apart, 1 for black against white,

@@ -33,8 +33,9 @@ table { border-collapse: collapse; background: var(--card); border: 1px solid va
 th, td { padding: .5rem .8rem; border-bottom: 1px solid var(--line); text-align: right; font-variant-numeric: tabular-nums }
 th { font-weight: 600; font-size: .9rem } th:first-child, td:first-child { text-align: left }
 tr:last-child td { border-bottom: 0 }
-.matrix td { padding: .4rem; text-align: center; min-width: 130px; font-size: .85rem } .matrix { display: block; overflow-x: auto; width: 100% }
-.matrix td:first-child { min-width: 4.5rem; padding-left: .8rem }
+.matrix { display: block; overflow-x: auto } .matrix td { padding: .35rem .25rem; text-align: center; min-width: 116px;
+  width: 12%; font-size: .85rem } .matrix img { border-radius: 3px; margin-bottom: .2rem }
+.matrix td:first-child, .matrix th:first-child { min-width: 0; max-width: 8rem; padding: .35rem .6rem }
 .legend { display: flex; align-items: center; gap: .6rem; font-size: .85rem; color: var(--soft); margin: .5rem 0 }
 .legend div { height: 12px; width: 220px; border-radius: 6px; border: 1px solid var(--line) }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .3rem 1.2rem; margin: .8rem 0; font-size: .93rem }

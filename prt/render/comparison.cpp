@@ -18,12 +18,24 @@ std::vector<std::size_t> spreadEvenly(std::size_t count, std::size_t maxCount) {
     return chosen;
 }
 
-template <class Vector>
-double rootMeanOfChannels(std::span<const Vector> variances) {
-    double sum = 0.0;
-    for (const Vector& variance : variances)
-        sum += static_cast<double>(variance.x + variance.y + variance.z);
-    return variances.empty() ? 0.0 : std::sqrt(sum / (3.0 * static_cast<double>(variances.size())));
+/// @param varianceAt  of the mean of reference pixel i
+template <class VarianceAt>
+NoisyError compareWithNoise(const Image& image, const Image& reference,
+                            const VarianceAt& varianceAt) {
+    double noise = 0.0, excess = 0.0, excessSquares = 0.0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const Vec3d variance = varianceAt(i);
+        const double expected = (variance.x + variance.y + variance.z) / 3.0;
+        const double square =
+            (Vec3d(image.pixels[i]) - Vec3d(reference.pixels[i])).length2() / 3.0 - expected;
+        noise += expected;
+        excess += square;
+        excessSquares += square * square;
+    }
+    const auto count = static_cast<double>(std::max<std::size_t>(image.pixels.size(), 1));
+    const double mean = excess / count;
+    const double spread = std::max(excessSquares / count - mean * mean, 0.0);
+    return {measureError(image, reference), std::sqrt(noise / count), std::sqrt(spread / count)};
 }
 
 ImageOf<float> subtractLuminance(const Image& a, const Image& b) {
@@ -60,8 +72,17 @@ double NoisyError::rmseWithoutNoise() const {
     return std::sqrt(std::max(error.rmse * error.rmse - noiseRmse * noiseRmse, 0.0));
 }
 
-double NoisyError::relativeRmseWithoutNoise() const {
-    return error.rmse > 0.0 ? error.relativeRmse * rmseWithoutNoise() / error.rmse : 0.0;
+double NoisyError::largestRmseWithoutNoise() const {
+    const double square = std::max(error.rmse * error.rmse - noiseRmse * noiseRmse, 0.0);
+    return std::sqrt(square + 2.0 * squareDeviation);
+}
+
+bool NoisyError::isSignificant() const {
+    return error.rmse * error.rmse - noiseRmse * noiseRmse >= 2.0 * squareDeviation;
+}
+
+double NoisyError::relative(double rmse) const {
+    return error.rmse > 0.0 ? error.relativeRmse * rmse / error.rmse : 0.0;
 }
 
 PictureComparison comparePictures(const Image& picture, const PathTracedView& reference,
@@ -69,8 +90,9 @@ PictureComparison comparePictures(const Image& picture, const PathTracedView& re
     const Rgba8Image shown = encodeForDisplay(picture, display);
     const Rgba8Image shownReference = encodeForDisplay(reference.radiance, display);
     PictureComparison comparison;
-    comparison.error = {measureError(picture, reference.radiance),
-                        rootMeanOfChannels<Vec3f>(reference.variance.pixels)};
+    comparison.error = compareWithNoise(picture, reference.radiance, [&](std::size_t i) {
+        return Vec3d(reference.variance.pixels[i]);
+    });
     comparison.psnr = measurePsnr(shown, shownReference);
     comparison.flip = measureFlip(shown, shownReference);
     comparison.meanFlip = meanValue(comparison.flip);
@@ -87,7 +109,8 @@ NoisyError compareAtVertices(std::span<const Vec3f> vertexRadiance, const Refere
         relit.pixels[i] = vertexRadiance[reference.vertices[i]];
         truth.pixels[i] = Vec3f(reference.atVertices.mean[i]);
     }
-    return {measureError(relit, truth), rootMeanOfChannels<Vec3d>(reference.atVertices.variance)};
+    return compareWithNoise(relit, truth,
+                            [&](std::size_t i) { return reference.atVertices.variance[i]; });
 }
 
 }  // namespace prt

@@ -29,14 +29,21 @@ struct Reference {
 Reference traceReference(const Scene& scene, const RayScene& rays, const DistantLight& light,
                          const Camera& camera, const ReferenceOptions& options);
 
-/// An error, and how much of it is the noise of the reference.
+/// An error, and how much of it is the noise of the reference. The squares of the two add up, so
+/// the noise can be taken out, as far as its own chance allows.
 struct NoisyError {
     ImageError error;        ///< of radiance, noise included
-    double noiseRmse = 0.0;  ///< that the reference would have against another of its kind's mean
+    double noiseRmse = 0.0;  ///< of the reference, from its variance
+    /// One standard deviation of the difference of the two squares.
+    double squareDeviation = 0.0;
 
-    /// The error without the noise, whose squares add up.
     double rmseWithoutNoise() const;
-    double relativeRmseWithoutNoise() const;
+    /// The most that the error without noise may be, by two standard deviations.
+    double largestRmseWithoutNoise() const;
+    /// Whether the noise does not explain it all.
+    bool isSignificant() const;
+    /// What an RMSE is, relative to the reference.
+    double relative(double rmse) const;
 };
 
 /// A relit picture held against a reference, pixel by pixel.

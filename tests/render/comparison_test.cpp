@@ -1,0 +1,116 @@
+#include "prt/render/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "prt/base/random.h"
+#include "prt/light/analytic_lights.h"
+#include "prt/scene/framing.h"
+#include "prt/scene/procedural.h"
+#include "tests/support/scenes.h"
+
+namespace prt {
+namespace {
+
+constexpr int kSide = 64;
+
+/// A ramp with normal noise (Box and Muller's) of the given deviation.
+PathTracedView makeNoisyRamp(float deviation) {
+    PathTracedView view{Image(kSide, kSide), Image(kSide, kSide, Vec3f(deviation * deviation))};
+    RandomStream random(4, 0);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+            for (int channel = 0; channel < 3; ++channel) {
+                const double radius = std::sqrt(-2.0 * std::log(1.0 - random.nextUnitDouble()));
+                const double normal =
+                    radius * std::cos(2.0 * std::numbers::pi * random.nextUnitDouble());
+                view.radiance.at(x, y)[channel] =
+                    static_cast<float>(x) / kSide + deviation * static_cast<float>(normal);
+            }
+    return view;
+}
+
+Image makeRamp(float error) {
+    Image ramp(kSide, kSide);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+            ramp.at(x, y) = Vec3f(static_cast<float>(x) / kSide + error);
+    return ramp;
+}
+
+TEST(Comparison, TakesTheNoiseOfTheReferenceOut) {
+    constexpr float kNoise = 0.1f;
+    for (const float error : {0.05f, 0.1f, 0.3f}) {
+        const NoisyError measured =
+            comparePictures(makeRamp(error), makeNoisyRamp(kNoise), {}).error;
+        EXPECT_NEAR(measured.error.rmse, std::hypot(error, kNoise), 0.01);
+        EXPECT_NEAR(measured.noiseRmse, kNoise, 1e-6);
+        EXPECT_NEAR(measured.rmseWithoutNoise(), error, 0.005);
+        EXPECT_GE(measured.largestRmseWithoutNoise(), measured.rmseWithoutNoise());
+        EXPECT_TRUE(measured.isSignificant());
+    }
+}
+
+TEST(Comparison, ANoisyReferenceProvesNoSmallError) {
+    const NoisyError none = comparePictures(makeRamp(0.0f), makeNoisyRamp(0.1f), {}).error;
+    EXPECT_FALSE(none.isSignificant());
+    EXPECT_LT(none.largestRmseWithoutNoise(), 0.03);
+    const NoisyError little = comparePictures(makeRamp(0.002f), makeNoisyRamp(0.1f), {}).error;
+    EXPECT_FALSE(little.isSignificant());
+    EXPECT_GT(little.largestRmseWithoutNoise(), 0.002);
+}
+
+TEST(Comparison, EqualPicturesDifferInNothing) {
+    const PathTracedView reference{makeRamp(0.0f), Image(kSide, kSide)};
+    const PictureComparison comparison = comparePictures(makeRamp(0.0f), reference, {});
+    EXPECT_EQ(comparison.error.error.rmse, 0.0);
+    EXPECT_EQ(comparison.error.rmseWithoutNoise(), 0.0);
+    EXPECT_EQ(comparison.error.relative(comparison.error.rmseWithoutNoise()), 0.0);
+    EXPECT_EQ(comparison.psnr, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(comparison.meanFlip, 0.0);
+}
+
+TEST(Comparison, LuminanceChangeIsSigned) {
+    const PathTracedView reference{makeRamp(0.0f), Image(kSide, kSide)};
+    const PictureComparison comparison = comparePictures(makeRamp(-0.25f), reference, {});
+    EXPECT_NEAR(comparison.luminanceChange.at(5, 5), -0.25f, 1e-6f);
+}
+
+/// An open floor under a sun, whose B is the cosine over π everywhere.
+TEST(Comparison, AReferenceOfAnOpenFloorIsItsClosedForm) {
+    const Scene scene = test::assembleScene({{makeFloor(1.0f, 0.0f, 40)}});
+    const RayScene rays(scene);
+    const double elevation = 0.8;
+    const auto light = makeSunLight(Vec3d(std::cos(elevation), std::sin(elevation), 0.0), 0.1);
+    ReferenceOptions options;
+    options.view.width = 32;
+    options.view.height = 18;
+    options.samplesPerRay = 2;
+    options.maxVertexCount = 100;
+    const Reference reference =
+        traceReference(scene, rays, *light, lookAt({0.0f, 2.0f, 2.0f}, Vec3f(0.0f), 0.7f), options);
+    EXPECT_EQ(reference.vertices.size(), 100u);
+    EXPECT_EQ(reference.vertices.front(), 0u);
+    EXPECT_GT(reference.vertices.back(), scene.vertexCount() * 95 / 100);
+    const std::vector<Vec3f> expected(
+        scene.vertexCount(), Vec3f(static_cast<float>(std::sin(elevation) / std::numbers::pi)));
+    const NoisyError atVertices = compareAtVertices(expected, reference);
+    EXPECT_LT(atVertices.relative(atVertices.largestRmseWithoutNoise()), 0.01);
+    const Image relit = renderView(scene, rays, expected,
+                                   lookAt({0.0f, 2.0f, 2.0f}, Vec3f(0.0f), 0.7f), options.view);
+    const NoisyError inPicture = comparePictures(relit, reference.view, {}).error;
+    EXPECT_LT(inPicture.relative(inPicture.largestRmseWithoutNoise()), 0.01);
+    // A wrong B is noticed.
+    std::vector<Vec3f> wrong = expected;
+    for (Vec3f& radiance : wrong)
+        radiance *= 1.1f;
+    const NoisyError noticed = compareAtVertices(wrong, reference);
+    EXPECT_TRUE(noticed.isSignificant());
+    EXPECT_NEAR(noticed.relative(noticed.rmseWithoutNoise()), 0.1, 0.01);
+}
+
+}  // namespace
+}  // namespace prt
