@@ -1,9 +1,11 @@
 #include "prt/render/distant_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -146,23 +148,40 @@ class BandLimitedLight final : public DistantLight {
     explicit BandLimitedLight(const Lighting& lighting)
         : lighting_(lighting),
           sampler_({SphereMap::latLong,
-                    reconstructLatLong(lighting, kTexelsPerBand * 2 * lighting.bandCount)}) {}
+                    reconstructLatLong(lighting, kTexelsPerBand * 2 * lighting.bandCount)}) {
+        for (const Vec3d& coefficient : lighting.coefficients)
+            coefficients_.emplace_back(coefficient);
+    }
 
     LightSample sample(RandomStream& random) const override {
         const TexelSampler::Place place = sampler_.sample(random);
         if (place.density == 0.0) return {};
-        const Vec3d radiance = reconstruct(lighting_, place.direction);
-        return {Vec3f(place.direction), Vec3f(radiance / place.density), place.density};
+        const Vec3f direction(place.direction);
+        return {direction, radianceFrom(direction) / static_cast<float>(place.density),
+                place.density};
     }
 
     LightValue evaluate(const Vec3f& direction) const override {
-        return {Vec3f(reconstruct(lighting_, Vec3d(direction))), sampler_.find(direction).density};
+        return {radianceFrom(direction), sampler_.find(direction).density};
     }
 
   private:
+    /// As reconstruct(), without its memory and in float where the straight-line code reaches.
+    Vec3f radianceFrom(const Vec3f& direction) const {
+        if (lighting_.bandCount > kMaxBandCount)
+            return Vec3f(reconstruct(lighting_, Vec3d(direction)));
+        std::array<float, shCoefficientCount(kMaxBandCount)> values;
+        evaluateSh(direction, lighting_.bandCount, std::span(values.data(), coefficients_.size()));
+        Vec3f radiance(0.0f);
+        for (std::size_t i = 0; i < coefficients_.size(); ++i)
+            radiance += coefficients_[i] * values[i];
+        return radiance;
+    }
+
     static constexpr int kTexelsPerBand = 8;  // of the sketch that directions are drawn from
 
     Lighting lighting_;
+    std::vector<Vec3f> coefficients_;
     TexelSampler sampler_;
 };
 
