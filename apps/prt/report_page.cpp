@@ -211,7 +211,8 @@ std::string formatBandTable(const Report& report) {
     std::string html =
         "<h2>How many bands a light needs</h2>\n<p class=\"soft\">Relit with ever more bands of "
         "each light. The number is the relative RMSE against path tracing under the light itself, "
-        "which stands last; its noise is taken out.</p>\n<table class=\"matrix\"><tr><th></th>";
+        "which stands last; its noise is taken out.</p>\n<div class=\"scroll\"><table "
+        "class=\"matrix\"><tr><th></th>";
     for (const auto& [bandCount, judged] : report.lights.front().byBandCount)
         html += fmt::format("<td>{} {}</td>", bandCount, bandCount == 1 ? "band" : "bands");
     html += "<td>truth</td></tr>\n";
@@ -226,7 +227,7 @@ std::string formatBandTable(const Report& report) {
                          formatRelativeExcess(judged.comparison.error));
         html += cell(pictureName(i, kItself), "path-traced") + "</tr>\n";
     }
-    return html + "</table>\n";
+    return html + "</table></div>\n";
 }
 
 constexpr const char* kHowToRead = R"(<h2>How to read the numbers</h2>

@@ -18,7 +18,7 @@ code { font: .88em ui-monospace, "DejaVu Sans Mono", monospace; overflow-wrap: a
 .card span { font-weight: 600 } .card p { font-size: .9rem; color: var(--soft); margin: .3rem 0 0 }
 .pictures { display: grid; grid-template-columns: repeat(3, 1fr); gap: 1rem }
 .pictures.two { grid-template-columns: repeat(2, 1fr) }
-figure { margin: 0 } img { width: 100%; display: block; border-radius: 6px; background: #000 }
+figure { margin: 0 } img { width: 100%; display: block; border-radius: 6px }
 figcaption { font-size: .9rem; margin-top: .35rem } figcaption b { color: var(--ink); font-weight: 600 }
 .slider { position: relative; border-radius: 10px; overflow: hidden; --split: 50% }
 .slider img { border-radius: 0 } .slider .over { position: absolute; inset: 0; clip-path: inset(0 calc(100% - var(--split)) 0 0) }
@@ -33,9 +33,9 @@ table { border-collapse: collapse; background: var(--card); border: 1px solid va
 th, td { padding: .5rem .8rem; border-bottom: 1px solid var(--line); text-align: right; font-variant-numeric: tabular-nums }
 th { font-weight: 600; font-size: .9rem } th:first-child, td:first-child { text-align: left }
 tr:last-child td { border-bottom: 0 }
-.matrix { display: block; overflow-x: auto } .matrix td { padding: .35rem .25rem; text-align: center; min-width: 116px;
-  width: 12%; font-size: .85rem } .matrix img { border-radius: 3px; margin-bottom: .2rem }
-.matrix td:first-child, .matrix th:first-child { min-width: 0; max-width: 8rem; padding: .35rem .6rem }
+.scroll { overflow-x: auto } .matrix { table-layout: fixed; min-width: 1100px } .matrix img { border-radius: 3px }
+.matrix td { padding: .35rem .2rem; text-align: center; font-size: .85rem } .matrix th { width: 9rem }
+.matrix td:first-child { padding-left: .8rem; text-align: left }
 .legend { display: flex; align-items: center; gap: .6rem; font-size: .85rem; color: var(--soft); margin: .5rem 0 }
 .legend div { height: 12px; width: 220px; border-radius: 6px; border: 1px solid var(--line) }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .3rem 1.2rem; margin: .8rem 0; font-size: .93rem }

@@ -10,6 +10,7 @@
 #include "prt/base/assert.h"
 #include "prt/base/error.h"
 #include "prt/parallel/parallel_for.h"
+#include "prt/scene/normals.h"
 
 namespace prt {
 namespace {
@@ -264,13 +265,21 @@ std::vector<PathOrigin> placeVertexOrigins(const Scene& scene, const RayScene& r
         const std::size_t firstVertex = origins.size();
         for (std::size_t i = 0; i < mesh.vertexCount(); ++i)
             origins.push_back({rays.tracePoint(mesh.positions[i]), mesh.normals[i]});
+        // Of the triangles around a vertex take the one that its normal fits best.
+        std::vector<float> bestFit(mesh.vertexCount(), -2.0f);
         for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-            // Weights of the other two corners, or, for one of those, its own.
+            const std::uint32_t vertex = mesh.indices[i];
+            const std::uint32_t* corners = &mesh.indices[i / 3 * 3];
+            const float fit = mesh.normals[vertex].dot(triangleNormal(mesh.positions[corners[0]],
+                                                                      mesh.positions[corners[1]],
+                                                                      mesh.positions[corners[2]]));
+            if (fit <= bestFit[vertex]) continue;
+            bestFit[vertex] = fit;
+            // Weights of the second and the third corner.
             const float u = i % 3 == 1 ? 1.0f - 2.0f * kInset : kInset;
             const float v = i % 3 == 2 ? 1.0f - 2.0f * kInset : kInset;
             const Hit beside{false, 0.0f, {meshIndex, i / 3, u, v}, false};
-            origins[firstVertex + mesh.indices[i]].position =
-                placePathOrigin(scene, rays, beside).position;
+            origins[firstVertex + vertex].position = placePathOrigin(scene, rays, beside).position;
         }
     }
     return origins;
