@@ -1,18 +1,18 @@
 #include "prt/transport/bake.h"
 
-#include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <mutex>
-#include <numeric>
+#include <memory>
+#include <new>
 #include <string>
 #include <utility>
 
 #include "prt/base/error.h"
 #include "prt/basis/sh.h"
 #include "prt/parallel/parallel_for.h"
+#include "prt/transport/bake_settings.h"
 #include "prt/transport/bounce.h"
-#include "prt/transport/gather.h"
+#include "prt/transport/forecast.h"
+#include "prt/transport/gather_pass.h"
 #include "prt/transport/unshadowed.h"
 
 namespace prt {
@@ -22,8 +22,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kMinSampleCount = 16;
 constexpr int kMaxSampleCount = 65536;
-// A slab of the bounce matrix, and the work one thread takes at a time.
-constexpr std::size_t kReceiversPerSlab = 128;
 
 double secondsSince(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -46,97 +44,94 @@ void checkOptions(const BakeOptions& options) {
                                                   std::string(isaName(*options.isa)));
 }
 
-/// Shadowed transfer of every receiver that is needed, and the hits of their rays.
-struct GatheredLight {
-    std::size_t receiverCount = 0;      // fronts, and backs if light comes from any
-    std::vector<float> directTransfer;  // [receiver][coefficient]
-    HitMatrix hits;
-    GatherCounts counts;
+std::unique_ptr<Checkpoint> openCheckpoint(const Scene& scene, const BakeOptions& options,
+                                           Isa isa) {
+    if (options.checkpoint.folder.empty()) return nullptr;
+    return std::make_unique<Checkpoint>(options.checkpoint.folder, options.checkpoint.otherFolders,
+                                        bakeSettings(scene, options, isa));
+}
+
+/// All that stands ready before the first ray.
+struct ReadyBake {
+    ReadyBake(const Scene& source, const BakeOptions& options)
+        : isa(options.isa.value_or(detectIsa())),
+          checkpoint(openCheckpoint(source, options, isa)),
+          rays(source, {options.isa, options.threadCount}),
+          receivers(placeReceivers(source, rays)),
+          scene{source, rays, receivers},
+          gather(scene, options, isa, checkpoint.get()) {}
+
+    Isa isa;
+    std::unique_ptr<Checkpoint> checkpoint;  // before the rest, for it may refuse
+    RayScene rays;
+    Receivers receivers;
+    GatherScene scene;
+    GatherPass gather;
 };
 
-/// Gathers at all fronts, and then at those backs of double-sided surfaces that rays have met, and
-/// at those that these meet in turn.
-class GatherPass {
-  public:
-    GatherPass(const GatherScene& scene, const BakeOptions& options, Isa isa, GatheredLight& light)
-        : scene_(scene),
-          options_(options),
-          kernels_(selectGatherKernels(isa)),
-          pattern_(padToLanes(static_cast<std::size_t>(options.sampleCount))),
-          light_(light),
-          backNeeded_(scene.receivers.backs.size()) {}
+void announce(const ReadyBake& ready, const BakeOptions& options,
+              std::optional<UnitRange> units = {}) {
+    if (options.announce) options.announce(forecastBake(ready.scene, options, ready.isa, units));
+}
 
-    void run() {
-        std::vector<std::uint32_t> wave(scene_.receivers.fronts.size());
-        std::iota(wave.begin(), wave.end(), 0u);
-        light_.receiverCount = wave.size();
-        for (; !wave.empty(); wave = takeNeededBacks())
-            gatherWave(wave);
+void reportGather(const GatheredLight& light, const BakeOptions& options, BakeStats& report) {
+    const int threadCount = resolveThreadCount(options.threadCount);
+    report.traceSeconds = light.counts.traceSeconds / threadCount;
+    report.accumulateSeconds = light.counts.accumulateSeconds / threadCount;
+    report.rayCount = light.counts.rayCount;
+    report.hitCount = light.counts.hitCount;
+    report.invalidRayCount = light.counts.invalidRayCount;
+    report.hitBytes = light.hits.entryBytes();
+}
+
+TransferField bakeRays(const Scene& scene, const BakeOptions& options, BakeStats& report) {
+    const Clock::time_point buildBegin = Clock::now();
+    ReadyBake ready(scene, options);
+    report.buildSeconds = secondsSince(buildBegin);
+    announce(ready, options);
+
+    // Trace every ray, once.
+    GatheredLight light{0, {}, HitMatrix(options.memoryBytes, options.scratchFolder), {}};
+    ready.gather.gatherAll(light);
+    reportGather(light, options, report);
+    report.resumedUnitCount = ready.gather.resumedUnitCount();
+    report.receiverCount = ready.receivers.fronts.size();
+
+    TransferField field{options.bandCount, report.receiverCount, ready.receivers.frontOfVertex, {}};
+    const auto coefficientCount = static_cast<std::size_t>(shCoefficientCount(options.bandCount));
+    const std::size_t frontSize = field.receiverCount * coefficientCount;
+    field.layers.push_back(
+        {Transport::shadowed,
+         1,
+         {light.directTransfer.begin(),
+          light.directTransfer.begin() + static_cast<std::ptrdiff_t>(frontSize)}});
+
+    // Let the light bounce.
+    if (options.transport == Transport::interreflected) {
+        const Clock::time_point bounceBegin = Clock::now();
+        TransferLayer layer{Transport::interreflected, 3, std::vector<float>(3 * frontSize)};
+        report.bounceCount =
+            addBounces(light.hits, light.directTransfer, selectGatherKernels(report.isa),
+                       {options.bandCount, options.bounceCount, options.threadCount,
+                        options.progress, ready.checkpoint.get()},
+                       layer.coefficients);
+        field.layers.push_back(std::move(layer));
+        report.bounceSeconds = secondsSince(bounceBegin);
     }
+    if (ready.checkpoint) report.warnings = ready.checkpoint->warnings();
+    return field;
+}
 
-  private:
-    std::size_t coefficientCount() const {
-        return static_cast<std::size_t>(shCoefficientCount(options_.bandCount));
+/// Calls `work`, which may need more memory than there is.
+template <class Work>
+auto withinMemory(Work work) {
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::outOfMemory, "the bake needs more memory than there is", {},
+                    "allow the hits of rays less, ask for fewer bands, or use a smaller scene");
     }
-
-    void gatherWave(const std::vector<std::uint32_t>& receivers) {
-        const bool keepHits = options_.transport == Transport::interreflected;
-        const GatherOptions gatherOptions{options_.bandCount, pattern_.reversedX.size(),
-                                          options_.seed, keepHits};
-        if (receivers.front() >= light_.receiverCount) light_.receiverCount *= 2;
-        light_.directTransfer.resize(light_.receiverCount * coefficientCount());
-
-        ProgressReporter reporter(options_.progress, "trace", "rays",
-                                  receivers.size() * gatherOptions.sampleCount);
-        parallelFor(receivers.size(), {options_.threadCount, kReceiversPerSlab},
-                    [&](std::size_t begin, std::size_t end) {
-                        Gatherer gatherer(scene_, kernels_, pattern_, gatherOptions);
-                        HitSlab slab;
-                        for (std::size_t i = begin; i < end; ++i) {
-                            gatherer.gather(receivers[i], transferOf(receivers[i]), slab);
-                            reporter.advance(gatherOptions.sampleCount);
-                        }
-                        finishSlab(gatherer.counts(), std::move(slab));
-                    });
-    }
-
-    std::span<float> transferOf(std::uint32_t receiver) {
-        return std::span(light_.directTransfer)
-            .subspan(receiver * coefficientCount(), coefficientCount());
-    }
-
-    void finishSlab(const GatherCounts& counts, HitSlab slab) {
-        const std::size_t frontCount = scene_.receivers.fronts.size();
-        const std::lock_guard lock(finishing_);
-        light_.counts += counts;
-        if (slab.receivers.empty()) return;
-        for (const std::uint32_t receiver : slab.receivers)
-            if (receiver >= frontCount) backNeeded_[receiver - frontCount] = BackState::gathered;
-        for (const BounceEntry& entry : slab.entries)
-            if (entry.receiver >= frontCount &&
-                backNeeded_[entry.receiver - frontCount] == BackState::unseen)
-                backNeeded_[entry.receiver - frontCount] = BackState::needed;
-        light_.hits.addSlab(std::move(slab));
-    }
-
-    std::vector<std::uint32_t> takeNeededBacks() const {
-        std::vector<std::uint32_t> wave;
-        for (std::uint32_t i = 0; i < backNeeded_.size(); ++i)
-            if (backNeeded_[i] == BackState::needed)
-                wave.push_back(backReceiver(scene_.receivers, i));
-        return wave;
-    }
-
-    enum class BackState : std::uint8_t { unseen, needed, gathered };
-
-    const GatherScene& scene_;
-    const BakeOptions& options_;
-    GatherKernels kernels_;
-    SamplePattern pattern_;
-    GatheredLight& light_;
-    std::mutex finishing_;
-    std::vector<BackState> backNeeded_;
-};
+}
 
 }  // namespace
 
@@ -150,46 +145,20 @@ TransferField bakeTransfer(const Scene& scene, const BakeOptions& options, BakeS
         report.receiverCount = scene.vertexCount();
         return makeUnshadowedTransfer(scene, options.bandCount);
     }
+    return withinMemory([&] { return bakeRays(scene, options, report); });
+}
 
-    // Place the receivers in the scene.
-    const Clock::time_point buildBegin = Clock::now();
-    const RayScene rays(scene, {options.isa, options.threadCount});
-    const Receivers receivers = placeReceivers(scene, rays);
-    report.buildSeconds = secondsSince(buildBegin);
-
-    // Trace every ray, once.
-    GatheredLight light{0, {}, HitMatrix(options.memoryBytes, options.scratchFolder), {}};
-    GatherPass({scene, rays, receivers}, options, report.isa, light).run();
-    const int threadCount = resolveThreadCount(options.threadCount);
-    report.traceSeconds = light.counts.traceSeconds / threadCount;
-    report.accumulateSeconds = light.counts.accumulateSeconds / threadCount;
-    report.rayCount = light.counts.rayCount;
-    report.hitCount = light.counts.hitCount;
-    report.invalidRayCount = light.counts.invalidRayCount;
-    report.receiverCount = receivers.fronts.size();
-    report.hitBytes = light.hits.entryBytes();
-
-    TransferField field{options.bandCount, receivers.fronts.size(), receivers.frontOfVertex, {}};
-    const auto coefficientCount = static_cast<std::size_t>(shCoefficientCount(options.bandCount));
-    const std::size_t frontSize = field.receiverCount * coefficientCount;
-    field.layers.push_back(
-        {Transport::shadowed,
-         1,
-         {light.directTransfer.begin(),
-          light.directTransfer.begin() + static_cast<std::ptrdiff_t>(frontSize)}});
-
-    // Let the light bounce.
-    if (options.transport == Transport::interreflected) {
-        const Clock::time_point bounceBegin = Clock::now();
-        TransferLayer layer{Transport::interreflected, 3, std::vector<float>(3 * frontSize)};
-        report.bounceCount = addBounces(
-            light.hits, light.directTransfer, selectGatherKernels(report.isa),
-            {options.bandCount, options.bounceCount, options.threadCount, options.progress},
-            layer.coefficients);
-        field.layers.push_back(std::move(layer));
-        report.bounceSeconds = secondsSince(bounceBegin);
-    }
-    return field;
+UnitReport bakeUnits(const Scene& scene, const BakeOptions& options, UnitRange units) {
+    checkOptions(options);
+    if (options.checkpoint.folder.empty() || options.transport == Transport::unshadowed)
+        throw Error(ErrorCode::invalidOption, "units are rays, kept in the folder of a checkpoint");
+    return withinMemory([&] {
+        ReadyBake ready(scene, options);
+        announce(ready, options, units);
+        ready.gather.makeFrontUnits(units);
+        return UnitReport{ready.gather.frontUnitCount(), ready.gather.missingFrontUnits().size(),
+                          ready.checkpoint->warnings()};
+    });
 }
 
 }  // namespace prt

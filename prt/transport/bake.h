@@ -2,17 +2,41 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "prt/math/isa.h"
 #include "prt/parallel/progress.h"
 #include "prt/scene/scene.h"
 #include "prt/transfer/transfer_field.h"
+#include "prt/transport/checkpoint.h"
 
 namespace prt {
 
 /// Bounces until nothing changes any more.
 inline constexpr int kInfiniteBounces = -1;
+
+/// Keeps what is finished, so that a bake that was killed goes on where it was. The result is the
+/// same to the last bit, with or without, however often it was killed.
+struct CheckpointOptions {
+    std::filesystem::path folder{};                     ///< made if missing; empty: nothing is kept
+    std::vector<std::filesystem::path> otherFolders{};  ///< units are read from these too
+    bool requireFronts = false;  ///< the units that bakeUnits makes must be there: for merging
+    /// What made the scene what it is, and which program bakes: a resume
+    /// with other settings is refused by their names.
+    std::vector<Setting> callerSettings{};
+};
+
+/// What a bake takes, told before its long part begins.
+struct BakeForecast {
+    std::size_t receiverCount = 0;
+    std::uint64_t rayCount = 0;
+    std::size_t memoryBytes = 0;  ///< in addition to what the process has by then
+    std::size_t diskBytes = 0;    ///< for a checkpoint, or for the hits beyond the memory allowed
+    std::size_t unitCount = 0;    ///< that bakeUnits can make; 0 without a checkpoint
+};
 
 struct BakeOptions {
     Transport transport = Transport::interreflected;  ///< the layers up to this one are baked
@@ -26,6 +50,8 @@ struct BakeOptions {
     std::filesystem::path
         scratchFolder{};       ///< where; empty: the system's folder for temporary files
     std::optional<Isa> isa{};  ///< pins the instruction set (C10); default: the widest
+    CheckpointOptions checkpoint{};
+    std::function<void(const BakeForecast&)> announce{};  ///< may throw, and so refuse
     ProgressCallback progress{};
 };
 
@@ -40,8 +66,10 @@ struct BakeStats {
     std::uint64_t hitCount = 0;
     std::uint64_t invalidRayCount = 0;  ///< rays that were not finite, and so counted as blocked
     std::size_t receiverCount = 0;
-    int bounceCount = 0;       ///< bounces made
-    std::size_t hitBytes = 0;  ///< the bounce matrix
+    int bounceCount = 0;                  ///< bounces made
+    std::size_t hitBytes = 0;             ///< the bounce matrix
+    std::size_t resumedUnitCount = 0;     ///< units of rays that a checkpoint had
+    std::vector<std::string> warnings{};  ///< files of a checkpoint that were damaged
     Isa isa = Isa::sse4;
 };
 
@@ -54,8 +82,33 @@ struct BakeStats {
 /// @param scene    as its reader promises; textures decoded
 /// @param options  ranges as stated; out of range is an Error{invalidOption}
 /// @param stats    filled if given
-/// @throws Error   invalidOption, cancelled, outOfMemory, or writeFailed for the scratch folder
+/// @throws Error   invalidOption (also for a checkpoint of another bake), cancelled, outOfMemory,
+///                 notFound for units that are required, or writeFailed for the scratch folder and
+///                 the checkpoint's
 TransferField bakeTransfer(const Scene& scene, const BakeOptions& options = {},
                            BakeStats* stats = nullptr);
+
+/// Units [begin, end).
+struct UnitRange {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+};
+
+/// What bakeUnits has made, and what others have to.
+struct UnitReport {
+    std::size_t unitCount = 0;         ///< of the whole work
+    std::size_t missingUnitCount = 0;  ///< that have no file in the folder
+    std::vector<std::string> warnings{};
+};
+
+/// Makes a share of a bake's units into the folder of a checkpoint, for machines that work side by
+/// side: bakeTransfer with the same options then makes the rest, or puts all together.
+///
+/// A unit is the rays of some receivers' fronts. A unit that is made twice, or by two at once, is
+/// the same.
+///
+/// @param units   those beyond the last are none
+/// @throws Error  as bakeTransfer
+UnitReport bakeUnits(const Scene& scene, const BakeOptions& options, UnitRange units);
 
 }  // namespace prt

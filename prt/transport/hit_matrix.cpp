@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -77,32 +78,50 @@ HitMatrix::HitMatrix(std::size_t memoryBytes, std::filesystem::path scratchFolde
 
 HitMatrix::~HitMatrix() = default;
 
-void HitMatrix::addSlab(HitSlab slab) {
+void HitMatrix::addSlab(HitSlab slab, EntryLoader loader) {
+    // Rows were appended one by one, which leaves up to half of the room empty.
+    slab.entries.shrink_to_fit();
     const std::lock_guard lock(adding_);
     const std::size_t bytes = bytesOf(slab);
     const bool fits = entryBytes_ + bytes <= memoryBytes_;
     entryBytes_ += bytes;
     rowCount_ += slab.receivers.size();
-    StoredSlab stored{std::move(slab)};
-    if (!fits) {
-        if (!spill_) spill_ = std::make_unique<SpillFile>(scratchFolder_);
-        stored.fileOffset = spill_->append(std::as_bytes(std::span(stored.slab.entries)));
-        stored.onDisk = true;
-        std::vector<BounceEntry>().swap(stored.slab.entries);
+    if (fits) {
+        loader = {};
+    } else {
+        if (!loader) loader = spillEntries(slab.entries);
+        std::vector<BounceEntry>().swap(slab.entries);
     }
-    slabs_.push_back(std::move(stored));
+    slabs_.push_back({std::move(slab), std::move(loader)});
+}
+
+EntryLoader HitMatrix::spillEntries(std::span<const BounceEntry> entries) {
+    if (!spill_) spill_ = std::make_unique<SpillFile>(scratchFolder_);
+    const std::uint64_t offset = spill_->append(std::as_bytes(entries));
+    return [this, offset, count = entries.size()](std::span<const std::uint32_t>) {
+        std::vector<BounceEntry> loaded(count);
+        spill_->read(offset, std::as_writable_bytes(std::span(loaded)));
+        return loaded;
+    };
+}
+
+void HitMatrix::sortSlabs() {
+    std::sort(slabs_.begin(), slabs_.end(), [](const StoredSlab& a, const StoredSlab& b) {
+        return a.slab.receivers < b.slab.receivers;
+    });
 }
 
 void HitMatrix::visitSlab(std::size_t index,
                           const std::function<void(const HitSlab&)>& visit) const {
     const StoredSlab& stored = slabs_[index];
-    if (!stored.onDisk) {
+    if (!stored.loader) {
         visit(stored.slab);
         return;
     }
-    HitSlab loaded{stored.slab.receivers, stored.slab.rowEnds, {}};
-    loaded.entries.resize(loaded.rowEnds.empty() ? 0 : loaded.rowEnds.back());
-    spill_->read(stored.fileOffset, std::as_writable_bytes(std::span(loaded.entries)));
+    const HitSlab loaded{stored.slab.receivers, stored.slab.rowEnds,
+                         stored.loader(stored.slab.receivers)};
+    if (loaded.entries.size() != (loaded.rowEnds.empty() ? 0 : loaded.rowEnds.back()))
+        throw Error(ErrorCode::unreadable, "the hits of some rays are no longer what they were");
     visit(loaded);
 }
 

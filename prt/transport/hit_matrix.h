@@ -25,6 +25,11 @@ struct HitSlab {
     }
 };
 
+/// Brings back the entries of the slab of these receivers, always the same.
+/// @throws Error  unreadable
+using EntryLoader =
+    std::function<std::vector<BounceEntry>(std::span<const std::uint32_t> receivers)>;
+
 /// The sparse matrix of a bounce, receivers × receivers: slabs of rows in memory, and on disk when
 /// they are more than the memory allowed.
 class HitMatrix {
@@ -36,24 +41,36 @@ class HitMatrix {
     HitMatrix(const HitMatrix&) = delete;
     HitMatrix& operator=(const HitMatrix&) = delete;
 
-    /// Adds rows; may be called from many threads. @throws Error writeFailed
-    void addSlab(HitSlab slab);
+    /// Adds rows; may be called from many threads.
+    ///
+    /// @param loader  where the entries are kept elsewhere too, so that they are not written again
+    /// @throws Error  writeFailed
+    void addSlab(HitSlab slab, EntryLoader loader = {});
+
+    /// Puts the slabs into the order of their first receivers, once all
+    /// are added: threads add them in any.
+    void sortSlabs();
 
     std::size_t slabCount() const { return slabs_.size(); }
+    /// Whose rows a slab holds.
+    std::span<const std::uint32_t> slabReceivers(std::size_t index) const {
+        return slabs_[index].slab.receivers;
+    }
     std::size_t rowCount() const { return rowCount_; }
     std::size_t entryBytes() const { return entryBytes_; }
 
     /// Calls `visit` with one slab; may be called from many threads once all are
-    /// added. @throws Error unreadable
+    /// added. @throws Error  unreadable
     void visitSlab(std::size_t index, const std::function<void(const HitSlab&)>& visit) const;
 
   private:
     class SpillFile;
     struct StoredSlab {
         HitSlab slab;  // its entries are empty while they are on disk
-        std::uint64_t fileOffset = 0;
-        bool onDisk = false;
+        EntryLoader loader;
     };
+
+    EntryLoader spillEntries(std::span<const BounceEntry> entries);
 
     std::mutex adding_;
     std::size_t memoryBytes_;
