@@ -33,7 +33,7 @@ std::optional<double> parseNumber(std::string_view text) {
     return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
-std::optional<std::uint64_t> parseSeed(std::string_view text) {
+std::optional<std::uint64_t> parseWholeNumber(std::string_view text) {
     return parseWhole<std::uint64_t>(text);
 }
 

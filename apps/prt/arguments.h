@@ -20,9 +20,9 @@ struct PictureSize {
 };
 
 /// Each reads the whole text, or nothing.
-std::optional<double> parseNumber(std::string_view text);  ///< finite
-std::optional<std::uint64_t> parseSeed(std::string_view text);
-std::optional<Vec3d> parseTriple(std::string_view text);  ///< "x,y,z"
+std::optional<double> parseNumber(std::string_view text);              ///< finite
+std::optional<std::uint64_t> parseWholeNumber(std::string_view text);  ///< not negative
+std::optional<Vec3d> parseTriple(std::string_view text);               ///< "x,y,z"
 std::optional<PictureSize> parsePictureSize(
     std::string_view text);  ///< "1280x720", each side 1 … 16384
 

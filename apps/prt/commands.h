@@ -7,6 +7,7 @@ namespace prt::cli {
 /// Each adds one subcommand with its options; parsing the command line then runs it. A subcommand
 /// that cannot do its work throws prt::Error, or CLI::ParseError for wrong usage.
 void addBakeCommand(CLI::App& app);
+void addMergeCommand(CLI::App& app);
 void addLightCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);

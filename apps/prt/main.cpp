@@ -37,7 +37,8 @@ int fail(ExitCode code, const std::string& message) {
 
 int exitCodeOf(const prt::Error& error) {
     if (error.code() == prt::ErrorCode::cancelled) {
-        fmt::print(stderr, "prt: interrupted\n");
+        const std::string hint = error.hint().empty() ? "" : " (" + error.hint() + ")";
+        fmt::print(stderr, "prt: interrupted{}\n", hint);
         return prt::cli::kInterruptedExitCode;
     }
     const bool wrongUsage = error.code() == prt::ErrorCode::invalidOption;
@@ -65,6 +66,7 @@ int run(int argumentCount, char** arguments) {
     app.require_subcommand(1);
     prt::cli::addSceneCommand(app);
     prt::cli::addBakeCommand(app);
+    prt::cli::addMergeCommand(app);
     prt::cli::addLightCommand(app);
     prt::cli::addRenderCommand(app);
     prt::cli::addCompareCommand(app);

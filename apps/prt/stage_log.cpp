@@ -43,6 +43,12 @@ void StageLog::finishStage(std::string_view stage, double seconds, std::string_v
     printStage(stage, seconds, summary);
 }
 
+void StageLog::tell(std::string_view sentence) {
+    finishSeries();
+    clearBar();
+    fmt::print(stderr, "prt: {}\n", sentence);
+}
+
 void StageLog::warn(std::string_view sentence) {
     clearBar();
     fmt::print(stderr, "prt: warning: {}\n", sentence);

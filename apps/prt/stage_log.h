@@ -30,6 +30,7 @@ class StageLog {
     ProgressCallback callback();
 
     void finishStage(std::string_view stage, double seconds, std::string_view summary);
+    void tell(std::string_view sentence);
     void warn(std::string_view sentence);
 
   private:

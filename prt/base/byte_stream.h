@@ -17,12 +17,13 @@ static_assert(std::endian::native == std::endian::little, "files of ours are lit
 /// Lines values up as bytes, little endian and without padding between them.
 class ByteWriter {
   public:
+    /// @param expectedBytes  room for them is made at once
+    explicit ByteWriter(std::size_t expectedBytes = 0) { bytes_.reserve(expectedBytes); }
+
     template <class Value>
     void write(std::span<const Value> values) {
-        if (values.empty()) return;  // whose address may be null
-        const std::size_t begin = bytes_.size();
-        bytes_.resize(begin + values.size_bytes());
-        std::memcpy(bytes_.data() + begin, values.data(), values.size_bytes());
+        const auto* begin = reinterpret_cast<const std::byte*>(values.data());
+        bytes_.insert(bytes_.end(), begin, begin + values.size_bytes());
     }
     template <class Value>
     void write(const std::vector<Value>& values) {

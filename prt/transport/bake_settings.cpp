@@ -98,8 +98,7 @@ std::vector<Setting> bakeSettings(const Scene& scene, const BakeOptions& options
     return settings;
 }
 
-BakeOptions readBakeSettings(std::span<const Setting> settings) {
-    BakeOptions options;
+void applyBakeSettings(std::span<const Setting> settings, BakeOptions& options) {
     options.transport = readChoice<Transport>(settings, "transport", parseTransport);
     options.bandCount = readNumber<int>(settings, "bands");
     options.sampleCount = readNumber<int>(settings, "samples");
@@ -108,7 +107,6 @@ BakeOptions readBakeSettings(std::span<const Setting> settings) {
                               : readNumber<int>(settings, "bounces");
     options.seed = readNumber<std::uint64_t>(settings, "seed");
     options.isa = readChoice<Isa>(settings, "isa", parseIsa);
-    return options;
 }
 
 const std::string& findSetting(std::span<const Setting> settings, std::string_view name) {

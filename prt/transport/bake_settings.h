@@ -14,11 +14,11 @@ namespace prt {
 /// Thread count, memory and folders do not.
 std::vector<Setting> bakeSettings(const Scene& scene, const BakeOptions& options, Isa isa);
 
-/// The options that bakeSettings has written down; those that decide nothing are as by default.
+/// Sets the options that bakeSettings has written down.
 ///
 /// @param settings  from a file
 /// @throws Error    malformed if one is missing or makes no sense
-BakeOptions readBakeSettings(std::span<const Setting> settings);
+void applyBakeSettings(std::span<const Setting> settings, BakeOptions& options);
 
 /// @throws Error  malformed if there is none of that name
 const std::string& findSetting(std::span<const Setting> settings, std::string_view name);

@@ -151,7 +151,7 @@ class BouncePass {
     }
 
     void store(const UnitKey& key, const SlabRange& slabs, PaddedTransfer& outgoing) {
-        ByteWriter writer;
+        ByteWriter writer(slabs.rowCount * 3 * outgoing.coefficientCount * sizeof(float));
         for (std::size_t slab = slabs.begin; slab < slabs.end; ++slab)
             for (const std::uint32_t receiver : matrix_.slabReceivers(slab))
                 writer.write(

@@ -27,6 +27,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<char, 8> kUnitMagic = {'P', 'R', 'T', 'U', 'N', 'I', 'T', '\0'};
 constexpr std::uint32_t kUnitVersion = 1;
+constexpr std::size_t kUnitFrameBytes = 60;  // all but the payload
 constexpr std::uintmax_t kMaxUnitBytes = std::uintmax_t(1) << 32;
 
 constexpr const char* kManifestName = "manifest.json";
@@ -112,7 +113,8 @@ std::string describeDifferences(const std::vector<Setting>& kept,
 void requireSameSettings(const fs::path& folder, const std::vector<Setting>& asked) {
     const std::vector<Setting> kept = readFolderSettings(folder);
     if (kept == asked) return;
-    throw Error(ErrorCode::invalidOption, "keeps another bake, " + describeDifferences(kept, asked),
+    throw Error(ErrorCode::invalidOption,
+                "was begun with other settings, " + describeDifferences(kept, asked),
                 folder.string(), "ask for the same, or name a new folder");
 }
 
@@ -134,7 +136,7 @@ void beginOrResume(const fs::path& folder, const std::vector<Setting>& settings)
 
 std::vector<std::byte> encodeUnit(std::uint64_t workFingerprint, const UnitKey& key,
                                   std::span<const std::byte> payload) {
-    ByteWriter writer;
+    ByteWriter writer(kUnitFrameBytes + payload.size());
     writer.write(std::span<const char>(kUnitMagic));
     writer.writeNumber(kUnitVersion);
     writer.writeNumber(key.index);

@@ -13,7 +13,7 @@ namespace {
 
 // What one thread takes where a file is written afterwards; and how many files there should be at
 // most, unless each would lose much work with the process.
-constexpr std::size_t kRaysPerUnit = std::size_t(1) << 21;
+constexpr std::size_t kRaysPerUnit = std::size_t(1) << 19;
 constexpr std::size_t kMaxRaysPerUnit = std::size_t(1) << 24;
 constexpr std::size_t kUnitCountAim = 8192;
 

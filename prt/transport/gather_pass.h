@@ -28,8 +28,8 @@ GatherOptions gatherOptionsOf(const BakeOptions& options);
 /// What one thread takes at a time where nothing is kept.
 inline constexpr std::size_t kReceiversPerSlab = 128;
 
-/// How many receivers' work is kept in one file: some two million rays, which takes a core
-/// less than a second, and more where there would be ten thousands of files.
+/// How many receivers' work is kept in one file: half a million rays, which takes a core
+/// a tenth of a second, and more where there would be ten thousands of files.
 std::size_t receiversPerUnit(std::size_t receiverCount, std::size_t sampleCount);
 
 /// Gathers at all fronts, and then at those backs of double-sided surfaces that rays have met, and

@@ -26,7 +26,10 @@ HitSlab readSlab(ByteReader& reader, const GatherUnitShape& shape) {
 }  // namespace
 
 std::vector<std::byte> encodeGatherUnit(const GatherUnit& unit, const GatherUnitShape& shape) {
-    ByteWriter writer;
+    ByteWriter writer(sizeof(GatherCounts) +
+                      (shape.receivers.size() + unit.slab.rowEnds.size()) * sizeof(std::uint32_t) +
+                      unit.transfer.size() * sizeof(float) +
+                      unit.slab.entries.size() * sizeof(BounceEntry));
     writer.writeNumber(unit.counts.rayCount);
     writer.writeNumber(unit.counts.hitCount);
     writer.writeNumber(unit.counts.invalidRayCount);

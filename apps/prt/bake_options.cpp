@@ -1,0 +1,136 @@
+#include "apps/prt/bake_options.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "apps/prt/arguments.h"
+#include "prt/base/error.h"
+#include "prt/basis/sh.h"
+#include "prt/transport/bake_settings.h"
+
+namespace prt::cli {
+namespace {
+
+constexpr const char* kMaxEdgeSetting = "max-edge";
+constexpr std::array<std::pair<std::string_view, TransferEncoding>, 3> kMethods = {{
+    {"float", TransferEncoding::float32},
+    {"u16", TransferEncoding::unorm16},
+    {"u8", TransferEncoding::unorm8},
+}};
+
+std::optional<TransferEncoding> parseMethod(std::string_view name) {
+    for (const auto& [method, encoding] : kMethods)
+        if (method == name) return encoding;
+    return std::nullopt;
+}
+
+std::optional<int> parseBounces(std::string_view text) {
+    constexpr int kMaxBounceCount = 1000;
+    if (text == "inf") return kInfiniteBounces;
+    const std::optional<double> count = parseNumber(text);
+    if (!count || *count < 0.0 || *count > kMaxBounceCount || *count != std::floor(*count))
+        return std::nullopt;
+    return static_cast<int>(*count);
+}
+
+std::optional<float> parseEdgeLength(std::string_view text) {
+    if (text == "none") return kKeepEdges;
+    const std::optional<double> length = parseNumber(text);
+    const auto metres = static_cast<float>(length.value_or(0.0));
+    return metres > 0.0f ? std::optional(metres) : std::nullopt;
+}
+
+std::string formatEdgeLength(float length) {
+    return length == kKeepEdges ? "none" : fmt::format("{}", length);
+}
+
+std::optional<Isa> parseRunnableIsa(std::string_view name) {
+    const std::optional<Isa> isa = parseIsa(name);
+    return isa && *isa <= detectIsa() ? isa : std::nullopt;
+}
+
+}  // namespace
+
+void addTransportOptions(CLI::App& command, BakeArguments& arguments) {
+    BakeOptions& bake = arguments.bake;
+    addParsedOption(command, "--transport", bake.transport, parseTransport,
+                    "unshadowed|shadowed|interreflected", "how much of light transport to bake")
+        ->default_str("interreflected");
+    addIntegerOption(command, "--bands", bake.bandCount, 1, kMaxBandCount,
+                     "n bands of spherical harmonics, n*n coefficients; 1 to 10");
+    addIntegerOption(command, "--samples", bake.sampleCount, 16, 65536,
+                     "rays a vertex; 16 to 65536");
+    addParsedOption(command, "--bounces", bake.bounceCount, parseBounces, "N|inf",
+                    "indirect bounces; 0 to 1000, or until nothing changes")
+        ->default_str("2");
+    addParsedOption(command, "--max-edge", arguments.maxEdgeLength, parseEdgeLength, "LENGTH|none",
+                    "split edges longer than this, metres [a 16th of the scene's radius]");
+    addParsedOption(command, "--seed", bake.seed, parseWholeNumber, "N", "of the random directions")
+        ->default_str("1");
+    addParsedOption(
+        command, "--isa", bake.isa, parseRunnableIsa, "sse4|avx2|avx512",
+        fmt::format("instruction set, for the same bytes elsewhere [{}]", isaName(detectIsa())));
+}
+
+void addRunOptions(CLI::App& command, BakeArguments& arguments) {
+    BakeOptions& bake = arguments.bake;
+    addParsedOption(command, "--method", arguments.encoding, parseMethod, "float|u16|u8",
+                    "how a coefficient is stored: 4, 2 or 1 bytes")
+        ->default_str("float");
+    addIntegerOption(command, "--threads", bake.threadCount, 0, 4096, "0 for one a core");
+    command
+        .add_option("--memory", bake.memoryBytes,
+                    "for the hits of rays, beyond it they go to disk; K M G T")
+        ->transform(CLI::AsSizeValue(false).description(""))
+        ->check(CLI::PositiveNumber.description(""))
+        ->type_name("BYTES")
+        ->default_str("8G");
+    command.add_option("--stats", arguments.stats, "write seconds, rays and memory as JSON")
+        ->type_name("FILE.json");
+}
+
+std::string_view methodName(TransferEncoding encoding) {
+    for (const auto& [method, known] : kMethods)
+        if (known == encoding) return method;
+    return encodingName(encoding);
+}
+
+std::vector<Setting> callerSettings(const BakeArguments& arguments) {
+    return {{kMaxEdgeSetting, formatEdgeLength(arguments.maxEdgeLength)}, {"version", PRT_VERSION}};
+}
+
+void adoptFolderSettings(const std::filesystem::path& folder, BakeArguments& arguments) {
+    const std::vector<Setting> settings = readFolderSettings(folder);
+    try {
+        applyBakeSettings(settings, arguments.bake);
+        const std::optional<float> length = parseEdgeLength(findSetting(settings, kMaxEdgeSetting));
+        if (!length) throw Error(ErrorCode::malformed, "has an edge length that is none");
+        arguments.maxEdgeLength = *length;
+    } catch (const Error& error) {
+        throw Error(error.code(), std::string("its manifest ") + error.what(), folder.string());
+    }
+}
+
+Provenance makeProvenance(const BakeArguments& arguments, const BakeStats& stats) {
+    const BakeOptions& bake = arguments.bake;
+    const bool infinite = bake.bounceCount == kInfiniteBounces;
+    const std::string command = fmt::format(
+        "bake --transport {} --bands {} --samples {} --bounces {} --max-edge {} --method {} --seed "
+        "{} --isa {}",
+        transportName(bake.transport), bake.bandCount, bake.sampleCount,
+        infinite ? "inf" : std::to_string(bake.bounceCount),
+        formatEdgeLength(arguments.maxEdgeLength), methodName(arguments.encoding), bake.seed,
+        isaName(stats.isa));
+    return {.generator = "OpenPRT " PRT_VERSION,
+            .command = command,
+            .sampleCount = bake.sampleCount,
+            .bounceCount = stats.bounceCount,
+            .seed = bake.seed,
+            .isa = std::string(isaName(stats.isa))};
+}
+
+}  // namespace prt::cli

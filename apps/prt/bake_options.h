@@ -1,0 +1,47 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "prt/asset/asset.h"
+#include "prt/transport/bake.h"
+
+namespace prt::cli {
+
+/// A longest edge that leaves all edges as they are.
+inline constexpr float kKeepEdges = std::numeric_limits<float>::infinity();
+
+/// What `prt bake` and `prt merge` are asked for.
+struct BakeArguments {
+    std::string scene;
+    std::string output;
+    std::string stats;
+    float maxEdgeLength = 0.0f;  ///< metres; 0 chooses from the scene, or kKeepEdges
+    TransferEncoding encoding = TransferEncoding::float32;
+    BakeOptions bake;
+};
+
+/// Adds the options that decide what is baked: --transport … --isa.
+void addTransportOptions(CLI::App& command, BakeArguments& arguments);
+
+/// Adds those that any bake of the same transport may choose anew: --method … --stats.
+void addRunOptions(CLI::App& command, BakeArguments& arguments);
+
+/// As --method takes it.
+std::string_view methodName(TransferEncoding encoding);
+
+/// What decides the bits of a bake beside the options of bakeTransfer. The
+/// edge length must have been chosen.
+std::vector<Setting> callerSettings(const BakeArguments& arguments);
+
+/// Asks for what the checkpoint in a folder was begun with. @throws Error  as readFolderSettings
+void adoptFolderSettings(const std::filesystem::path& folder, BakeArguments& arguments);
+
+/// The options that decide the result, so that the same scene and this command make the same asset.
+Provenance makeProvenance(const BakeArguments& arguments, const BakeStats& stats);
+
+}  // namespace prt::cli

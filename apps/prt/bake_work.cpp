@@ -1,0 +1,218 @@
+#include "apps/prt/bake_work.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "apps/prt/arguments.h"
+#include "apps/prt/interrupts.h"
+#include "apps/prt/memory.h"
+#include "apps/prt/stage_log.h"
+#include "apps/prt/text.h"
+#include "prt/base/error.h"
+#include "prt/base/file.h"
+#include "prt/compress/compress_transfer.h"
+#include "prt/io/scene_io.h"
+#include "prt/scene/refine.h"
+
+namespace prt::cli {
+namespace {
+
+/// Seconds of each stage outside bakeTransfer, which keeps its own.
+struct StageSeconds {
+    double load = 0.0;
+    double compress = 0.0;
+    double write = 0.0;
+    double total = 0.0;
+};
+
+/// Checks all that can be checked before any work is done.
+void checkOutputs(const BakeArguments& arguments) {
+    requireSuffix(arguments.output, ".glb");
+    std::error_code ignored;
+    if (std::filesystem::equivalent(arguments.scene, arguments.output, ignored))
+        throw Error(ErrorCode::invalidOption, "would overwrite the scene it is baked from",
+                    arguments.output, "choose another name, such as scene.prt.glb");
+    const DeferInterrupts whileProbing;
+    checkWritable(arguments.output);
+    if (!arguments.stats.empty()) checkWritable(arguments.stats);
+}
+
+/// Reads the scene and makes its triangles small enough to hold a shadow. Sets
+/// the edge length that was chosen.
+Scene prepareScene(BakeArguments& arguments, StageLog& log) {
+    Stopwatch watch;
+    Scene scene = loadScene(arguments.scene);
+    if (scene.triangleCount() == 0)
+        throw Error(ErrorCode::malformed, "has no triangles to bake", arguments.scene);
+    for (const std::string& warning : scene.warnings)
+        log.warn(arguments.scene + ": " + warning);
+    log.finishStage("load", watch.seconds(),
+                    fmt::format("{}, {}, {}", formatCount(scene.meshes.size(), "mesh"),
+                                formatCount(scene.vertexCount(), "vertex"),
+                                formatCount(scene.triangleCount(), "triangle")));
+    if (arguments.maxEdgeLength == kKeepEdges) return scene;
+
+    watch = Stopwatch();
+    if (arguments.maxEdgeLength == 0.0f) arguments.maxEdgeLength = defaultMaxEdgeLength(scene);
+    Scene refined = refineEdges(scene, {.maxEdgeLength = arguments.maxEdgeLength});
+    log.finishStage("refine", watch.seconds(),
+                    fmt::format("edges to {:.3g} m: {}, {}", arguments.maxEdgeLength,
+                                formatCount(refined.vertexCount(), "vertex"),
+                                formatCount(refined.triangleCount(), "triangle")));
+    return refined;
+}
+
+/// Says what the bake will take. @throws Error  outOfMemory if that is more than there is
+void tellForecast(const BakeForecast& forecast, const Stopwatch& build, StageLog& log) {
+    const std::uint64_t memoryBytes = std::max(peakBytes(), residentBytes() + forecast.memoryBytes);
+    std::string summary = fmt::format(
+        "{}; to come: {}, {} of memory", formatCount(forecast.receiverCount, "receiver"),
+        formatQuantity(static_cast<double>(forecast.rayCount), "rays"), formatBytes(memoryBytes));
+    if (forecast.diskBytes > 0)
+        summary += fmt::format(", {} on disk", formatBytes(forecast.diskBytes));
+    if (forecast.unitCount > 0)
+        summary += fmt::format(", {}", formatCount(forecast.unitCount, "unit"));
+    log.finishStage("build", build.seconds(), summary);
+    if (memoryBytes <= grantedBytes()) return;
+    throw Error(ErrorCode::outOfMemory,
+                fmt::format("the bake needs {} of memory, and there are {}",
+                            formatBytes(memoryBytes), formatBytes(grantedBytes())),
+                {}, "keep more hits on disk with a smaller --memory, or ask for fewer bands");
+}
+
+/// Runs a bake that an interrupt of the user stops in good order.
+template <class Bake>
+auto runInterruptibly(const BakeArguments& arguments, StageLog& log, Bake bake) {
+    // Until the first ray there is nothing to put in order: the program ends at once.
+    std::optional<DeferInterrupts> untilTheCallback;
+    const Stopwatch build;
+    BakeOptions options = arguments.bake;
+    options.progress = log.callback();
+    options.announce = [&](const BakeForecast& forecast) {
+        untilTheCallback.emplace();
+        tellForecast(forecast, build, log);
+    };
+    options.checkpoint.callerSettings = callerSettings(arguments);
+    const std::string folder = options.checkpoint.folder.string();
+    try {
+        auto result = bake(options);
+        stopIfInterrupted();
+        return result;
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::cancelled || folder.empty()) throw;
+        throw Error(ErrorCode::cancelled, "interrupted", {},
+                    "the same command goes on from what is in " + folder);
+    }
+}
+
+TransferField bakeScene(const Scene& scene, const BakeArguments& arguments, BakeStats& stats,
+                        StageLog& log) {
+    TransferField field = runInterruptibly(arguments, log, [&](const BakeOptions& options) {
+        return bakeTransfer(scene, options, &stats);
+    });
+    for (const std::string& warning : stats.warnings)
+        log.warn(warning);
+    if (stats.invalidRayCount > 0)
+        log.warn(fmt::format("{} were not finite and count as blocked",
+                             formatCount(stats.invalidRayCount, "ray")));
+    if (stats.resumedUnitCount > 0)
+        log.tell(fmt::format("{} of rays came from the checkpoint",
+                             formatCount(stats.resumedUnitCount, "unit")));
+    return field;
+}
+
+std::size_t countBytesPerReceiver(const CompressedTransfer& transfer) {
+    std::size_t bytes = 0;
+    for (const CompressedLayer& layer : transfer.layers)
+        bytes += layer.data.size();
+    return bytes / transfer.receiverCount;
+}
+
+/// Bakes, and keeps no more of it than the asset needs.
+CompressedTransfer bakeCompressed(const Scene& scene, const BakeArguments& arguments,
+                                  BakeStats& stats, StageSeconds& seconds, StageLog& log) {
+    const TransferField field = bakeScene(scene, arguments, stats, log);
+    const Stopwatch watch;
+    CompressedTransfer transfer = compressTransfer(field, {.encoding = arguments.encoding});
+    seconds.compress = watch.seconds();
+    log.finishStage("compress", seconds.compress,
+                    fmt::format("{}, {} a vertex", methodName(arguments.encoding),
+                                formatCount(countBytesPerReceiver(transfer), "byte")));
+    return transfer;
+}
+
+std::string formatStats(const BakeStats& stats, const StageSeconds& seconds) {
+    const double raysPerSecond =
+        stats.traceSeconds > 0.0 ? static_cast<double>(stats.rayCount) / stats.traceSeconds : 0.0;
+    const nlohmann::ordered_json json = {
+        {"seconds",
+         {{"load", seconds.load},
+          {"build", stats.buildSeconds},
+          {"trace", stats.traceSeconds},
+          {"accumulate", stats.accumulateSeconds},
+          {"bounce", stats.bounceSeconds},
+          {"compress", seconds.compress},
+          {"write", seconds.write},
+          {"total", seconds.total}}},
+        {"rays", stats.rayCount},
+        {"rays_per_second", raysPerSecond},
+        {"receivers", stats.receiverCount},
+        {"peak_bytes", peakBytes()},
+    };
+    return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+void bakeToAsset(BakeArguments arguments) {
+    const Stopwatch total;
+    StageLog log;
+    StageSeconds seconds;
+    checkOutputs(arguments);
+    stopIfInterrupted();
+
+    const Scene scene = prepareScene(arguments, log);
+    seconds.load = total.seconds();
+
+    BakeStats stats;
+    const CompressedTransfer transfer = bakeCompressed(scene, arguments, stats, seconds, log);
+
+    const Stopwatch writeWatch;
+    const std::vector<std::byte> bytes =
+        encodeAsset(scene, transfer, makeProvenance(arguments, stats));
+    const DeferInterrupts whileWriting;
+    writeFileAtomically(arguments.output, bytes);
+    seconds.write = writeWatch.seconds();
+    log.finishStage("write", seconds.write,
+                    fmt::format("{}, {}", arguments.output, formatBytes(bytes.size())));
+    if (!arguments.bake.checkpoint.folder.empty())
+        log.tell(fmt::format("{} can be removed, or kept to bake again with another --method",
+                             arguments.bake.checkpoint.folder.string()));
+
+    seconds.total = total.seconds();
+    if (!arguments.stats.empty()) writeFileAtomically(arguments.stats, formatStats(stats, seconds));
+}
+
+void bakeShare(BakeArguments arguments, UnitRange units) {
+    const Stopwatch total;
+    StageLog log;
+    const Scene scene = prepareScene(arguments, log);
+    const UnitReport report = runInterruptibly(arguments, log, [&](const BakeOptions& options) {
+        return bakeUnits(scene, options, units);
+    });
+    for (const std::string& warning : report.warnings)
+        log.warn(warning);
+    log.finishStage("units", total.seconds(),
+                    fmt::format("{} of {} missing in {}", formatCount(report.missingUnitCount),
+                                formatCount(report.unitCount, "unit"),
+                                arguments.bake.checkpoint.folder.string()));
+}
+
+}  // namespace prt::cli

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+namespace prt::cli {
+
+/// Memory that this process holds now, and the most it has held.
+std::uint64_t residentBytes();
+std::uint64_t peakBytes();
+
+/// Memory that this process can have at most: of the machine, its control group and its limits.
+std::uint64_t grantedBytes();
+
+}  // namespace prt::cli
