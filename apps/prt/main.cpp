@@ -31,14 +31,14 @@ sun:azimuth,elevation,angle, or the JSON that `prt light` writes (see prt light 
 Exit codes: 0 done, 1 the data or the machine is at fault, 2 wrong usage, 75 interrupted.)";
 
 int fail(ExitCode code, const std::string& message) {
-    fmt::print(stderr, "prt: error: {}\n", message);
+    std::fputs(("prt: error: " + message + "\n").c_str(), stderr);
     return code;
 }
 
 int exitCodeOf(const prt::Error& error) {
     if (error.code() == prt::ErrorCode::cancelled) {
         const std::string hint = error.hint().empty() ? "" : " (" + error.hint() + ")";
-        fmt::print(stderr, "prt: interrupted{}\n", hint);
+        std::fputs(("prt: interrupted" + hint + "\n").c_str(), stderr);
         return prt::cli::kInterruptedExitCode;
     }
     const bool wrongUsage = error.code() == prt::ErrorCode::invalidOption;

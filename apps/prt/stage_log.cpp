@@ -14,8 +14,13 @@
 namespace prt::cli {
 namespace {
 
+/// A log that cannot be written, because the terminal has gone, must not stop the work.
+void say(const std::string& text) {
+    std::fputs(text.c_str(), stderr);
+}
+
 void printStage(std::string_view stage, double seconds, std::string_view summary) {
-    fmt::print(stderr, "{:<10} {:>8.2f} s  {}\n", stage, seconds, summary);
+    say(fmt::format("{:<10} {:>8.2f} s  {}\n", stage, seconds, summary));
 }
 
 }  // namespace
@@ -46,12 +51,12 @@ void StageLog::finishStage(std::string_view stage, double seconds, std::string_v
 void StageLog::tell(std::string_view sentence) {
     finishSeries();
     clearBar();
-    fmt::print(stderr, "prt: {}\n", sentence);
+    say(fmt::format("prt: {}\n", sentence));
 }
 
 void StageLog::warn(std::string_view sentence) {
     clearBar();
-    fmt::print(stderr, "prt: warning: {}\n", sentence);
+    say(fmt::format("prt: warning: {}\n", sentence));
 }
 
 void StageLog::show(const Progress& progress) {
@@ -101,13 +106,12 @@ void StageLog::drawBar(const Progress& progress) {
             fmt::format("  {}  {} left", formatQuantity(rate, std::string(progress.unit) + "/s"),
                         formatDuration(secondsLeft));
     }
-    fmt::print(stderr, "\r{}\x1b[K", line);
-    std::fflush(stderr);
+    say(fmt::format("\r{}\x1b[K", line));
     barShown_ = true;
 }
 
 void StageLog::clearBar() {
-    if (barShown_) fmt::print(stderr, "\r\x1b[K");
+    if (barShown_) say("\r\x1b[K");
     barShown_ = false;
 }
 

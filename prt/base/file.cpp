@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -78,6 +79,7 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
+    size_ = std::max(size_, offset + bytes.size());
     while (!bytes.empty()) {
         const ssize_t written =
             ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
@@ -89,6 +91,7 @@ void AtomicFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
 }
 
 void AtomicFile::commit() {
+    requireSize();
     // mkstemp makes files private; give the result the mode an ordinary create would have.
     const mode_t mask = ::umask(0);
     ::umask(mask);
@@ -101,6 +104,14 @@ void AtomicFile::commit() {
         throwWriteFailed(destination_, errno);
     temporary_.clear();
     syncFolderOf(destination_);
+}
+
+void AtomicFile::requireSize() const {
+    struct stat status = {};
+    if (::fstat(descriptor_, &status) != 0) throwWriteFailed(destination_, errno);
+    if (static_cast<std::uint64_t>(status.st_size) != size_)
+        throw Error(ErrorCode::writeFailed, "cannot be written: some of its bytes were lost",
+                    destination_.string());
 }
 
 void writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {

@@ -32,9 +32,13 @@ class AtomicFile {
     void commit();
 
   private:
+    /// Some file systems lose what they have accepted.
+    void requireSize() const;
+
     std::filesystem::path destination_;
     std::string temporary_;
     int descriptor_ = -1;
+    std::uint64_t size_ = 0;
 };
 
 /// Writes a whole file as an AtomicFile. @throws Error writeFailed; no temporary file is left
