@@ -93,6 +93,14 @@ RTCIntersectContext makeContext() {
 
 }  // namespace
 
+std::string rayTracerName() {
+    const Device device(rtcNewDevice(nullptr));
+    if (!device) throwTracerError(nullptr);
+    const ssize_t version = rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_VERSION);
+    return "Embree " + std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) +
+           "." + std::to_string(version % 100);
+}
+
 struct RayScene::Content {
     const Scene& scene;
     Device device;

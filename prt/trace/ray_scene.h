@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "prt/math/isa.h"
 #include "prt/scene/scene.h"
@@ -33,6 +34,9 @@ struct RaySceneOptions {
     std::optional<Isa> isa{};  ///< pins the ray tracer's instruction set (C10)
     int threadCount = 0;       ///< for building the hierarchy; 0: one a core
 };
+
+/// The ray tracer that runs here and its version: another may round differently.
+std::string rayTracerName();
 
 /// A scene made ready for rays, watertight at edges at any size and place: it is recentred, and
 /// scaled by a power of two to a radius of at most 1, before it is traced. Surfaces with an alpha

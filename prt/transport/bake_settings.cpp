@@ -6,6 +6,7 @@
 
 #include "prt/base/error.h"
 #include "prt/base/fingerprint.h"
+#include "prt/trace/ray_scene.h"
 
 namespace prt {
 namespace {
@@ -89,6 +90,7 @@ std::vector<Setting> bakeSettings(const Scene& scene, const BakeOptions& options
         {"bounces", infinite ? kInfinite : std::to_string(options.bounceCount)},
         {"seed", std::to_string(options.seed)},
         {"isa", std::string(isaName(isa))},
+        {"tracer", rayTracerName()},
     };
     const std::vector<Setting>& more = options.checkpoint.callerSettings;
     settings.insert(settings.end(), more.begin(), more.end());

@@ -8,8 +8,8 @@
 
 namespace prt {
 
-/// All that decides the bits of a bake: options, instruction set, what the caller adds, and
-/// fingerprints of the scene's geometry, materials and textures.
+/// All that decides the bits of a bake: options, instruction set, ray tracer, what the caller adds,
+/// and fingerprints of the scene's geometry, materials and textures.
 ///
 /// Thread count, memory and folders do not.
 std::vector<Setting> bakeSettings(const Scene& scene, const BakeOptions& options, Isa isa);

@@ -31,6 +31,10 @@ Vec3f randomDirection(RandomStream& random) {
     return sampleUniformSphere(u, unitFloatFromBits(random.nextBits()));
 }
 
+TEST(RayTracer, SaysItsName) {
+    EXPECT_TRUE(rayTracerName().starts_with("Embree 3.")) << rayTracerName();
+}
+
 TEST(RayScene, FindsDistanceCornersAndSide) {
     const Scene scene = makeUnitQuadScene();
     const RayScene rays(scene);
