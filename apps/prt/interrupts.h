@@ -2,7 +2,7 @@
 
 namespace prt::cli {
 
-/// Work was stopped on request and left nothing behind (EX_TEMPFAIL of sysexits.h).
+/// Work was stopped on request and left nothing half-written (EX_TEMPFAIL of sysexits.h).
 inline constexpr int kInterruptedExitCode = 75;
 
 /// Makes Ctrl-C and SIGTERM end the program at once with kInterruptedExitCode, except where
