@@ -72,19 +72,7 @@ class AssetComparison {
             throw Error(ErrorCode::invalidOption,
                         fmt::format("was baked with {} bands only", asset_.transfer.bandCount),
                         arguments.asset, "ask for fewer --band-counts, or bake more --bands");
-        referenceOptions_ = {
-            .view = {.width = arguments.view.size.width,
-                     .height = arguments.view.size.height,
-                     .seed = arguments.seed,
-                     .threadCount = arguments.threadCount,
-                     .progress = log.callback()},
-            .samplesPerVertex = arguments.referenceSamples,
-            .bounceCount = arguments.bounceCount.value_or(
-                transport_ == Transport::interreflected ? asset_.provenance.bounceCount : 0)};
-        const int raysPerPixel =
-            referenceOptions_.view.samplesPerAxis * referenceOptions_.view.samplesPerAxis;
-        referenceOptions_.samplesPerRay =
-            std::max(2, (arguments.referenceSamples + raysPerPixel - 1) / raysPerPixel);
+        referenceOptions_ = makeReferenceOptions();
     }
 
     ReportLight compareUnder(const LightSource& source, const std::string& name) {
@@ -100,22 +88,14 @@ class AssetComparison {
         light.itself = judge(light.relit, vertexRadiance, itself);
         finishStage("measure", watch, name);
 
-        for (int n = arguments_.bandCounts.first; n <= arguments_.bandCounts.last; ++n) {
-            const Image picture = render(relight(transport_, bandsOf(source, n)));
+        for (int n = arguments_.bandCounts.first; n <= arguments_.bandCounts.last; ++n)
             light.byBandCount.emplace_back(
-                n,
-                JudgedPicture{picture, comparePictures(picture, itself.view, arguments_.display)});
-        }
-        if (arguments_.triple) {
-            for (const Transport layer :
-                 {Transport::unshadowed, Transport::shadowed, Transport::interreflected}) {
-                if (layer > transport_) continue;
-                const Image picture = render(relight(layer, lighting));
-                light.byTransport.emplace_back(
-                    layer, JudgedPicture{picture, comparePictures(picture, sameBands.view,
-                                                                  arguments_.display)});
-            }
-        }
+                n, relightAndJudge(transport_, bandsOf(source, n), itself.view));
+        for (const Transport layer :
+             {Transport::unshadowed, Transport::shadowed, Transport::interreflected})
+            if (arguments_.triple && layer <= transport_)
+                light.byTransport.emplace_back(layer,
+                                               relightAndJudge(layer, lighting, sameBands.view));
         return light;
     }
 
@@ -147,6 +127,22 @@ class AssetComparison {
         return asset;
     }
 
+    ReferenceOptions makeReferenceOptions() const {
+        const int bakedBounces =
+            transport_ == Transport::interreflected ? asset_.provenance.bounceCount : 0;
+        ReferenceOptions options = {.view = {.width = arguments_.view.size.width,
+                                             .height = arguments_.view.size.height,
+                                             .seed = arguments_.seed,
+                                             .threadCount = arguments_.threadCount,
+                                             .progress = log_.callback()},
+                                    .samplesPerVertex = arguments_.referenceSamples,
+                                    .bounceCount = arguments_.bounceCount.value_or(bakedBounces)};
+        const int raysPerPixel = options.view.samplesPerAxis * options.view.samplesPerAxis;
+        options.samplesPerRay =
+            std::max(2, (arguments_.referenceSamples + raysPerPixel - 1) / raysPerPixel);
+        return options;
+    }
+
     Lighting bandsOf(const LightSource& source, int bandCount) const {
         return truncate(rotate(source.lighting, rotation_),
                         std::min(bandCount, source.lighting.bandCount));
@@ -174,6 +170,13 @@ class AssetComparison {
             traceReference(asset_.scene, rays_, light, camera_, referenceOptions_);
         addSeconds(stage, watch.seconds());
         return reference;
+    }
+
+    JudgedPicture relightAndJudge(Transport transport, const Lighting& lighting,
+                                  const PathTracedView& reference) {
+        Image picture = render(relight(transport, lighting));
+        PictureComparison comparison = comparePictures(picture, reference, arguments_.display);
+        return {std::move(picture), std::move(comparison)};
     }
 
     JudgedReference judge(const Image& relit, const std::vector<Vec3f>& vertexRadiance,
@@ -238,6 +241,18 @@ void runCompare(const CompareArguments& arguments) {
                     (std::filesystem::path(arguments.output) / "index.html").string());
 }
 
+/// The command line without its output, which does not change what the report says.
+std::string describeCommand(const std::string& asset, const CLI::App& command) {
+    std::string line = "prt compare " + asset;
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->get_lnames().empty() || option->get_lnames().front() == "output") continue;
+        const bool isFlag = option->get_expected_min() == 0;
+        for (const std::string& value : option->results())
+            line += fmt::format(" --{}{}", option->get_lnames().front(), isFlag ? "" : " " + value);
+    }
+    return line;
+}
+
 constexpr const char* kFooter =
     R"(Examples: prt compare statue.prt.glb --light museum.exr -o report
           prt compare slab.prt.glb --light sun:30,60,0 --light sun:30,60,20 --band-counts 2:10 -o report
@@ -284,13 +299,7 @@ void addCompareCommand(CLI::App& app) {
     addIntegerOption(*command, "--threads", arguments->threadCount, 0, 4096, "0 for one a core");
 
     command->callback([arguments, command] {
-        arguments->command = "prt compare " + arguments->asset;
-        for (const CLI::Option* option : command->get_options())
-            for (const std::string& value : option->results())
-                if (!option->get_lnames().empty() && option->get_lnames().front() != "output")
-                    arguments->command +=
-                        fmt::format(" --{}{}", option->get_lnames().front(),
-                                    option->get_expected_min() == 0 ? "" : " " + value);
+        arguments->command = describeCommand(arguments->asset, *command);
         runCompare(*arguments);
     });
 }

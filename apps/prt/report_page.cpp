@@ -175,8 +175,8 @@ std::string formatErrors(const ReportLight& light) {
                                       formatRelativeExcess(vertices)));
     }
     return fmt::format(
-        "<h3>Numbers</h3>\n<table><tr><th></th>{}<th>RMSE at vertices</th>"
-        "<th>relative</th></tr>\n{}</table>\n",
+        "<h3>Numbers</h3>\n<div class=\"scroll\"><table><tr><th></th>{}<th>RMSE at vertices</th>"
+        "<th>relative</th></tr>\n{}</table></div>\n",
         kErrorHeads, rows);
 }
 
@@ -193,8 +193,9 @@ std::string formatTransports(std::size_t index, const ReportLight& light) {
     return fmt::format(
         "<h3>What each kind of transport is worth</h3>\n<p class=\"soft\">The same "
         "asset with ever more of its transport, each against path tracing under {}."
-        "</p>\n<div class=\"pictures\">\n{}</div>\n<p></p>\n<table><tr><th></th>{}"
-        "</tr>\n{}</table>\n",
+        "</p>\n<div class=\"pictures\">\n{}</div>\n<p></p>\n<div "
+        "class=\"scroll\"><table><tr><th></th>{}"
+        "</tr>\n{}</table></div>\n",
         nameReference(light, true), pictures, kErrorHeads, rows);
 }
 
