@@ -18,9 +18,9 @@ namespace {
 constexpr int kSide = 64;
 
 /// A ramp with normal noise (Box and Muller's) of the given deviation.
-PathTracedView makeNoisyRamp(float deviation) {
+PathTracedView makeNoisyRamp(float deviation, std::uint64_t seed = 4) {
     PathTracedView view{Image(kSide, kSide), Image(kSide, kSide, Vec3f(deviation * deviation))};
-    RandomStream random(4, 0);
+    RandomStream random(seed, 0);
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x)
             for (int channel = 0; channel < 3; ++channel) {
@@ -39,6 +39,17 @@ Image makeRamp(float error) {
         for (int x = 0; x < kSide; ++x)
             ramp.at(x, y) = Vec3f(static_cast<float>(x) / kSide + error);
     return ramp;
+}
+
+/// The pixels as if they were the vertices of a scene.
+Reference asVertices(const PathTracedView& view) {
+    Reference reference;
+    for (std::size_t i = 0; i < view.radiance.pixels.size(); ++i) {
+        reference.vertices.push_back(i);
+        reference.atVertices.mean.emplace_back(view.radiance.pixels[i]);
+        reference.atVertices.variance.emplace_back(view.variance.pixels[i]);
+    }
+    return reference;
 }
 
 TEST(Comparison, TakesTheNoiseOfTheReferenceOut) {
@@ -61,6 +72,21 @@ TEST(Comparison, ANoisyReferenceProvesNoSmallError) {
     const NoisyError little = comparePictures(makeRamp(0.002f), makeNoisyRamp(0.1f), {}).error;
     EXPECT_FALSE(little.isSignificant());
     EXPECT_GT(little.largestRmseWithoutNoise(), 0.002);
+}
+
+TEST(Comparison, KnowsHowFarChanceMovesTheErrorWithoutNoise) {
+    constexpr int kRunCount = 40;
+    double sum = 0.0, squareSum = 0.0, claimed = 0.0;
+    for (std::uint64_t seed = 1; seed <= kRunCount; ++seed) {
+        const NoisyError run =
+            compareAtVertices(makeRamp(0.05f).pixels, asVertices(makeNoisyRamp(0.1f, seed)));
+        const double square = run.error.rmse * run.error.rmse - run.noiseRmse * run.noiseRmse;
+        sum += square / kRunCount;
+        squareSum += square * square / kRunCount;
+        claimed += run.squareDeviation / kRunCount;
+    }
+    // The deviation of a deviation from 40 runs is a ninth of it.
+    EXPECT_NEAR(std::sqrt(squareSum - sum * sum) / claimed, 1.0, 0.4);
 }
 
 TEST(Comparison, EqualPicturesDifferInNothing) {
