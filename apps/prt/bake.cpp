@@ -15,6 +15,9 @@ constexpr const char* kFooter =
 The asset is a glTF with one layer for each transport up to the one asked for, so that all of them
 can be shown. The same seed gives the same bytes for any number of threads, on one instruction set.
 
+With --refine-error vertices are added where shadows bend, and only there: at the same error a third
+of the vertices of a small --max-edge are enough.
+
 With --checkpoint DIR nothing is lost: however the bake ends, the same command goes on from what is
 in DIR, and makes the same bytes. Other settings or another scene are refused, but --method,
 --threads and --memory may change. DIR stays when the asset is written; remove it when you like.

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +18,10 @@ namespace prt::cli {
 namespace {
 
 constexpr const char* kMaxEdgeSetting = "max-edge";
+constexpr const char* kRefineErrorSetting = "refine-error";
+constexpr const char* kMinEdgeSetting = "min-edge";
+constexpr const char* kMaxVerticesSetting = "max-vertices";
+constexpr std::uint64_t kMaxVertexCount = 0xfffffffe;
 constexpr std::array<std::pair<std::string_view, TransferEncoding>, 3> kMethods = {{
     {"float", TransferEncoding::float32},
     {"u16", TransferEncoding::unorm16},
@@ -48,9 +54,41 @@ std::string formatEdgeLength(float length) {
     return length == kKeepEdges ? "none" : fmt::format("{}", length);
 }
 
+std::optional<float> parsePositive(std::string_view text) {
+    const auto number = static_cast<float>(parseNumber(text).value_or(0.0));
+    return number > 0.0f ? std::optional(number) : std::nullopt;
+}
+
+std::optional<std::size_t> parseVertexCount(std::string_view text) {
+    const std::optional<std::uint64_t> count = parseWholeNumber(text);
+    return count && *count > 0 && *count <= kMaxVertexCount ? std::optional<std::size_t>(*count)
+                                                            : std::nullopt;
+}
+
+/// What a setting holds, as `parse` reads it. @throws Error  malformed
+template <class Parse>
+auto readSetting(std::span<const Setting> settings, const std::string& name, Parse parse) {
+    const auto value = parse(findSetting(settings, name));
+    if (!value) throw Error(ErrorCode::malformed, "has a setting " + name + " that makes no sense");
+    return *value;
+}
+
 std::optional<Isa> parseRunnableIsa(std::string_view name) {
     const std::optional<Isa> isa = parseIsa(name);
     return isa && *isa <= detectIsa() ? isa : std::nullopt;
+}
+
+void addRefineOptions(CLI::App& command, RefineArguments& refine) {
+    CLI::Option* error = addParsedOption(
+        command, "--refine-error", refine.maxError, parsePositive, "ERROR",
+        "add vertices where interpolated transfer is off by more, of an open surface's; try 0.05");
+    addParsedOption(command, "--min-edge", refine.minEdgeLength, parsePositive, "LENGTH",
+                    "but halve no edge under twice this, metres [a 256th of the scene's radius]")
+        ->needs(error);
+    addParsedOption(command, "--max-vertices", refine.maxVertexCount, parseVertexCount, "N",
+                    "and stop before there are more vertices")
+        ->default_str(std::to_string(refine.maxVertexCount))
+        ->needs(error);
 }
 
 }  // namespace
@@ -69,6 +107,7 @@ void addTransportOptions(CLI::App& command, BakeArguments& arguments) {
         ->default_str("2");
     addParsedOption(command, "--max-edge", arguments.maxEdgeLength, parseEdgeLength, "LENGTH|none",
                     "split edges longer than this, metres [a 16th of the scene's radius]");
+    addRefineOptions(command, arguments.refine);
     addParsedOption(command, "--seed", bake.seed, parseWholeNumber, "N", "of the random directions")
         ->default_str("1");
     addParsedOption(
@@ -100,16 +139,28 @@ std::string_view methodName(TransferEncoding encoding) {
 }
 
 std::vector<Setting> callerSettings(const BakeArguments& arguments) {
-    return {{kMaxEdgeSetting, formatEdgeLength(arguments.maxEdgeLength)}, {"version", PRT_VERSION}};
+    std::vector<Setting> settings = {{kMaxEdgeSetting, formatEdgeLength(arguments.maxEdgeLength)},
+                                     {"version", PRT_VERSION}};
+    const RefineArguments& refine = arguments.refine;
+    if (refine.maxError == 0.0f) {
+        settings.push_back({kRefineErrorSetting, "none"});
+        return settings;
+    }
+    settings.push_back({kRefineErrorSetting, fmt::format("{}", refine.maxError)});
+    settings.push_back({kMinEdgeSetting, fmt::format("{}", refine.minEdgeLength)});
+    settings.push_back({kMaxVerticesSetting, std::to_string(refine.maxVertexCount)});
+    return settings;
 }
 
 void adoptFolderSettings(const std::filesystem::path& folder, BakeArguments& arguments) {
     const std::vector<Setting> settings = readFolderSettings(folder);
     try {
         applyBakeSettings(settings, arguments.bake);
-        const std::optional<float> length = parseEdgeLength(findSetting(settings, kMaxEdgeSetting));
-        if (!length) throw Error(ErrorCode::malformed, "has an edge length that is none");
-        arguments.maxEdgeLength = *length;
+        arguments.maxEdgeLength = readSetting(settings, kMaxEdgeSetting, parseEdgeLength);
+        if (findSetting(settings, kRefineErrorSetting) == "none") return;
+        arguments.refine = {readSetting(settings, kRefineErrorSetting, parsePositive),
+                            readSetting(settings, kMinEdgeSetting, parsePositive),
+                            readSetting(settings, kMaxVerticesSetting, parseVertexCount)};
     } catch (const Error& error) {
         throw Error(error.code(), std::string("its manifest ") + error.what(), folder.string());
     }
@@ -118,13 +169,17 @@ void adoptFolderSettings(const std::filesystem::path& folder, BakeArguments& arg
 Provenance makeProvenance(const BakeArguments& arguments, const BakeStats& stats) {
     const BakeOptions& bake = arguments.bake;
     const bool infinite = bake.bounceCount == kInfiniteBounces;
-    const std::string command = fmt::format(
+    std::string command = fmt::format(
         "bake --transport {} --bands {} --samples {} --bounces {} --max-edge {} --method {} --seed "
         "{} --isa {}",
         transportName(bake.transport), bake.bandCount, bake.sampleCount,
         infinite ? "inf" : std::to_string(bake.bounceCount),
         formatEdgeLength(arguments.maxEdgeLength), methodName(arguments.encoding), bake.seed,
         isaName(stats.isa));
+    const RefineArguments& refine = arguments.refine;
+    if (refine.maxError > 0.0f)
+        command += fmt::format(" --refine-error {} --min-edge {} --max-vertices {}",
+                               refine.maxError, refine.minEdgeLength, refine.maxVertexCount);
     return {.generator = "OpenPRT " PRT_VERSION,
             .command = command,
             .sampleCount = bake.sampleCount,

@@ -9,11 +9,19 @@
 
 #include "prt/asset/asset.h"
 #include "prt/transport/bake.h"
+#include "prt/transport/refine_adaptively.h"
 
 namespace prt::cli {
 
 /// A longest edge that leaves all edges as they are.
 inline constexpr float kKeepEdges = std::numeric_limits<float>::infinity();
+
+/// Where vertices are to be added; see refineAdaptively.
+struct RefineArguments {
+    float maxError = 0.0f;       ///< 0: nowhere
+    float minEdgeLength = 0.0f;  ///< metres; 0 chooses from the scene
+    std::size_t maxVertexCount = AdaptiveRefineOptions{}.maxVertexCount;
+};
 
 /// What `prt bake` and `prt merge` are asked for.
 struct BakeArguments {
@@ -21,6 +29,7 @@ struct BakeArguments {
     std::string output;
     std::string stats;
     float maxEdgeLength = 0.0f;  ///< metres; 0 chooses from the scene, or kKeepEdges
+    RefineArguments refine;
     TransferEncoding encoding = TransferEncoding::float32;
     BakeOptions bake;
 };

@@ -20,6 +20,7 @@
 #include "prt/compress/compress_transfer.h"
 #include "prt/io/scene_io.h"
 #include "prt/scene/refine.h"
+#include "prt/transport/refine_adaptively.h"
 
 namespace prt::cli {
 namespace {
@@ -44,6 +45,34 @@ void checkOutputs(const BakeArguments& arguments) {
     if (!arguments.stats.empty()) checkWritable(arguments.stats);
 }
 
+/// Puts vertices where shadows need them, if that is asked for. Sets the edge length that was
+/// chosen.
+Scene refineWhereNeeded(Scene scene, BakeArguments& arguments, StageLog& log) {
+    RefineArguments& refine = arguments.refine;
+    if (refine.maxError == 0.0f) return scene;
+    const Stopwatch watch;
+    if (refine.minEdgeLength == 0.0f) refine.minEdgeLength = defaultMinEdgeLength(scene);
+    const BakeOptions& bake = arguments.bake;
+    AdaptiveRefineStats stats;
+    Scene refined = refineAdaptively(scene,
+                                     {.maxError = refine.maxError,
+                                      .minEdgeLength = refine.minEdgeLength,
+                                      .maxVertexCount = refine.maxVertexCount,
+                                      .bandCount = bake.bandCount,
+                                      .sampleCount = bake.sampleCount,
+                                      .seed = bake.seed,
+                                      .threadCount = bake.threadCount,
+                                      .isa = bake.isa,
+                                      .progress = log.callback()},
+                                     &stats);
+    log.finishStage(
+        "refine", watch.seconds(),
+        fmt::format("to an error of {:g}: {}, {}", refine.maxError,
+                    formatCount(refined.vertexCount(), "vertex"),
+                    stats.ranOutOfVertices ? "all that --max-vertices allows" : "as asked"));
+    return refined;
+}
+
 /// Reads the scene and makes its triangles small enough to hold a shadow. Sets
 /// the edge length that was chosen.
 Scene prepareScene(BakeArguments& arguments, StageLog& log) {
@@ -57,7 +86,8 @@ Scene prepareScene(BakeArguments& arguments, StageLog& log) {
                     fmt::format("{}, {}, {}", formatCount(scene.meshes.size(), "mesh"),
                                 formatCount(scene.vertexCount(), "vertex"),
                                 formatCount(scene.triangleCount(), "triangle")));
-    if (arguments.maxEdgeLength == kKeepEdges) return scene;
+    if (arguments.maxEdgeLength == kKeepEdges)
+        return refineWhereNeeded(std::move(scene), arguments, log);
 
     watch = Stopwatch();
     if (arguments.maxEdgeLength == 0.0f) arguments.maxEdgeLength = defaultMaxEdgeLength(scene);
@@ -66,7 +96,7 @@ Scene prepareScene(BakeArguments& arguments, StageLog& log) {
                     fmt::format("edges to {:.3g} m: {}, {}", arguments.maxEdgeLength,
                                 formatCount(refined.vertexCount(), "vertex"),
                                 formatCount(refined.triangleCount(), "triangle")));
-    return refined;
+    return refineWhereNeeded(std::move(refined), arguments, log);
 }
 
 /// Says what the bake will take. @throws Error  outOfMemory if that is more than there is
@@ -185,13 +215,12 @@ void bakeToAsset(BakeArguments arguments) {
     const CompressedTransfer transfer = bakeCompressed(scene, arguments, stats, seconds, log);
 
     const Stopwatch writeWatch;
-    const std::vector<std::byte> bytes =
-        encodeAsset(scene, transfer, makeProvenance(arguments, stats));
     const DeferInterrupts whileWriting;
-    writeFileAtomically(arguments.output, bytes);
+    writeAsset(arguments.output, scene, transfer, makeProvenance(arguments, stats));
     seconds.write = writeWatch.seconds();
     log.finishStage("write", seconds.write,
-                    fmt::format("{}, {}", arguments.output, formatBytes(bytes.size())));
+                    fmt::format("{}, {}", arguments.output,
+                                formatBytes(std::filesystem::file_size(arguments.output))));
     if (!arguments.bake.checkpoint.folder.empty())
         log.tell(fmt::format("{} can be removed, or kept to bake again with another --method",
                              arguments.bake.checkpoint.folder.string()));

@@ -294,7 +294,8 @@ void addCompareCommand(CLI::App& app) {
     addRotationOption(*command, arguments->rotationDegrees);
     addViewOptions(*command, arguments->view);
     addDisplayOptions(*command, arguments->display);
-    addParsedOption(*command, "--seed", arguments->seed, parseSeed, "N", "of the random paths")
+    addParsedOption(*command, "--seed", arguments->seed, parseWholeNumber, "N",
+                    "of the random paths")
         ->default_str("1");
     addIntegerOption(*command, "--threads", arguments->threadCount, 0, 4096, "0 for one a core");
 

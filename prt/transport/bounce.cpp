@@ -31,13 +31,18 @@ struct PaddedTransfer {
     PaddedTransfer(std::size_t coefficients, std::size_t receivers)
         : coefficientCount(coefficients),
           receiverCount(receivers),
-          values(hwy::AllocateAligned<float>(view().receiverStride() * receivers)) {
+          values(hwy::AllocateAligned<float>(stride() * receivers)) {
         if (!values) throw std::bad_alloc();
-        std::fill_n(values.get(), view().receiverStride() * receivers, 0.0f);
+        std::fill_n(values.get(), stride() * receivers, 0.0f);
     }
 
     BounceTransfer view() const { return {values.get(), coefficientCount}; }
-    float* of(std::size_t receiver) { return values.get() + view().receiverStride() * receiver; }
+    float* of(std::size_t receiver) { return values.get() + stride() * receiver; }
+
+  private:
+    std::size_t stride() const {
+        return BounceTransfer{nullptr, coefficientCount}.receiverStride();
+    }
 };
 
 PaddedTransfer replicateChannels(std::span<const float> direct, std::size_t coefficientCount) {
