@@ -26,6 +26,9 @@ if(PRT_SANITIZE)
         -fsanitize=${PRT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(prt_build_flags INTERFACE -fsanitize=${PRT_SANITIZE})
 endif()
+if(PRT_LIBFUZZER)
+    target_compile_options(prt_build_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 set_property(GLOBAL PROPERTY PRT_MODULES "")
 

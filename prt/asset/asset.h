@@ -51,4 +51,9 @@ void writeAsset(const std::filesystem::path& path, const Scene& scene,
 ///                unsupported: another major version, a glTF without the extension
 Asset readAsset(const std::filesystem::path& path);
 
+/// The same from memory: what encodeAsset made.
+///
+/// @param path  how errors call it; buffers and images that it names lie in this path's folder
+Asset decodeAsset(std::vector<std::byte> file, const std::filesystem::path& path);
+
 }  // namespace prt

@@ -16,6 +16,7 @@
 #include "prt/asset/asset_header.h"
 #include "prt/base/checksum.h"
 #include "prt/base/error.h"
+#include "prt/base/file.h"
 #include "prt/gltf/glb_writer.h"
 #include "prt/gltf/gltf_document.h"
 #include "prt/gltf/json_cursor.h"
@@ -217,16 +218,19 @@ Asset readFrom(const GltfDocument& document) {
 
 }  // namespace
 
-Asset readAsset(const std::filesystem::path& path) {
-    const GltfDocument document(path);
+Asset decodeAsset(std::vector<std::byte> file, const std::filesystem::path& path) {
     try {
-        return readFrom(document);
+        return readFrom(GltfDocument(std::move(file), path.parent_path()));
     } catch (const Error& error) {
         if (!error.where().empty()) throw;
         throw Error(error.code(), error.what(), path.string(), error.hint());
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::outOfMemory, "does not fit in memory", path.string());
     }
+}
+
+Asset readAsset(const std::filesystem::path& path) {
+    return decodeAsset(readFile(path, GltfLimits().maxFileBytes), path);
 }
 
 }  // namespace prt

@@ -1,3 +1,5 @@
+#include "prt/io/obj_reader.h"
+
 #include <algorithm>
 #include <unordered_map>
 
@@ -132,9 +134,7 @@ void dropTextureWithoutUvs(const Mesh& mesh, Scene& scene) {
 
 }  // namespace
 
-Scene readObj(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = readFile(path, kMaxObjBytes);
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+Scene parseObjScene(std::string_view text, const std::filesystem::path& path) {
     const ObjGeometry geometry = parseObj(text, path.string());
     if (geometry.faces.empty()) throw Error(ErrorCode::malformed, "has no faces", path.string());
 
@@ -157,6 +157,11 @@ Scene readObj(const std::filesystem::path& path) {
         scene.meshes.push_back(std::move(mesh));
     }
     return scene;
+}
+
+Scene readObj(const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = readFile(path, kMaxObjBytes);
+    return parseObjScene({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
 }  // namespace prt

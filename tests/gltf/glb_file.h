@@ -6,6 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,14 @@ struct GlbFile {
     nlohmann::json json;
     std::vector<std::byte> binary;
 
+    /// The bytes of a buffer view. @throws std::out_of_range  if there is no such view or byte
     std::span<std::byte> view(std::size_t index) {
-        const nlohmann::json& object = json["bufferViews"][index];
-        return std::span(binary).subspan(object["byteOffset"], object["byteLength"]);
+        const nlohmann::json& object = json.at("bufferViews").at(index);
+        const std::size_t offset = object.value("byteOffset", std::size_t(0));
+        const std::size_t length = object.at("byteLength");
+        if (offset > binary.size() || length > binary.size() - offset)
+            throw std::out_of_range("a buffer view ends beyond the binary chunk");
+        return std::span(binary).subspan(offset, length);
     }
 };
 
@@ -42,12 +48,13 @@ inline GlbFile splitGlb(std::span<const std::byte> bytes) {
     EXPECT_EQ(readGlbWord(bytes, 16), 0x4E4F534Au);
     const std::size_t jsonBytes = readGlbWord(bytes, 12);
     const std::size_t begin = findBinaryChunk(bytes);
+    const std::span<const std::byte> binary = bytes.subspan(begin);
     if (begin < bytes.size()) {
         EXPECT_EQ(readGlbWord(bytes, begin - 8), bytes.size() - begin);
         EXPECT_EQ(readGlbWord(bytes, begin - 4), 0x004E4942u);
     }
     const auto* text = reinterpret_cast<const char*>(bytes.data()) + 20;
-    return {nlohmann::json::parse(text, text + jsonBytes), {bytes.begin() + begin, bytes.end()}};
+    return {nlohmann::json::parse(text, text + jsonBytes), {binary.begin(), binary.end()}};
 }
 
 /// Puts a file together again.
