@@ -1,4 +1,5 @@
-// OpenEXR, by the library of that name behind checks of our own.
+// OpenEXR, by the library of that name behind checks of our own, and in this process, where a
+// crash is seen: readers confine it (prt/io/confined.h).
 
 #include "prt/io/exr.h"
 
@@ -6,6 +7,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     return prt::fuzz::readSafely([&] {
-        prt::decodeExr(prt::fuzz::copyBytes(data, size), "image", prt::fuzz::kImageLimits);
+        prt::decodeExrUnconfined(prt::fuzz::copyBytes(data, size), "image",
+                                 prt::fuzz::kImageLimits);
     });
 }

@@ -20,7 +20,7 @@ inline int readGltfBytes(std::vector<std::byte> file) {
             document.readRaw(i);
         }
         for (std::size_t i = 0; i < document.bufferViewCount(); ++i)
-            PRT_ASSERT(!document.bufferViewBytes(i).empty(), "a view has bytes");
+            document.bufferViewBytes(i);
     });
 }
 

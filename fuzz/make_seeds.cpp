@@ -39,9 +39,9 @@ class SeedFolder {
     /// As fuzz/glb_parts.h takes a binary glTF apart.
     void writeParts(const char* target, const std::string& name, const std::string& json,
                     std::span<const std::byte> binary) const {
-        write(target, name,
-              json + '\0' +
-                  std::string(reinterpret_cast<const char*>(binary.data()), binary.size()));
+        write(
+            target, name,
+            json + '\0' + std::string(reinterpret_cast<const char*>(binary.data()), binary.size()));
     }
 
   private:
@@ -132,8 +132,7 @@ void writePictures(const SeedFolder& seeds) {
         "png_jpeg", "deep.png",
         prt::test::PngBytes{.bitDepth = 16, .colorType = 6, .rows = std::string(9, '\0')}.file());
     seeds.write("png_jpeg", "grey.jpg", prt::test::makeGreyJpeg());
-    seeds.write("exr", "uncompressed",
-                prt::test::ExrBytes{.samples = {0.5f, 1.0f, 2.0f}}.file());
+    seeds.write("exr", "uncompressed", prt::test::ExrBytes{.samples = {0.5f, 1.0f, 2.0f}}.file());
     for (const auto& [name, bytes] : prt::fuzz::makeExrSeeds())
         seeds.write("exr", name, bytes);
 }

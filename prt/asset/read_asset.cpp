@@ -201,6 +201,7 @@ void checkInstances(const std::vector<PrimitiveId>& primitiveOfMesh) {
 }
 
 Asset readFrom(const GltfDocument& document) {
+    if (document.trailingByteCount() > 0) reject("has bytes after its end");
     AssetHeader header = readHeader(document);
     checkBufferViews(document, header.checksums);
     FlattenedGltf flattened = document.flatten();

@@ -46,7 +46,8 @@ struct Shape {
     int rowCount;
 };
 
-const Shape& parseShape(const JsonCursor& value) {
+/// No components for a type that a later version may define.
+Shape parseShape(const JsonCursor& value) {
     static constexpr std::array<Shape, 7> kShapes = {{{"SCALAR", 1, 1},
                                                       {"VEC2", 1, 2},
                                                       {"VEC3", 1, 3},
@@ -57,7 +58,7 @@ const Shape& parseShape(const JsonCursor& value) {
     const std::string& name = value.toString();
     for (const Shape& shape : kShapes)
         if (name == shape.name) return shape;
-    value.reject("is not an accessor type");
+    return {"", 0, 0};
 }
 
 /// How many elements lie in memory, and how.
@@ -70,12 +71,12 @@ struct Extent {
 /// The part of a view from an offset on, once it is known to hold the elements.
 std::span<const std::byte> sliceView(const JsonCursor& place, const BufferView& view,
                                      std::size_t byteOffset, const Extent& extent) {
-    const std::size_t viewBytes = view.bytes.size();
+    const std::size_t viewBytes = view.byteLength;
     const bool fits =
         byteOffset <= viewBytes && extent.lastElementBytes <= viewBytes - byteOffset &&
         extent.count - 1 <= (viewBytes - byteOffset - extent.lastElementBytes) / extent.byteStride;
     if (!fits) place.reject("ends beyond its buffer view");
-    return view.bytes.subspan(byteOffset);
+    return view.bytes.empty() ? view.bytes : view.bytes.subspan(byteOffset);
 }
 
 void checkAlignment(const JsonCursor& place, const BufferView& view, std::size_t byteOffset,
@@ -117,13 +118,21 @@ SparseElements parseSparse(const JsonCursor& sparse, const Accessor& accessor,
     return elements;
 }
 
+void checkCount(const JsonCursor& accessor, std::size_t count, std::size_t limit) {
+    if (count > limit)
+        throw Error(ErrorCode::limitExceeded, accessor.place() + " has " + std::to_string(count) +
+                                                  " elements, more than the limit of " +
+                                                  std::to_string(limit));
+}
+
 void locateElements(const JsonCursor& value, const std::vector<BufferView>& views,
-                    Accessor& accessor) {
+                    const GltfLimits& limits, Accessor& accessor) {
     const auto viewIndex = value.findIndex("bufferView", views.size(), "buffer views");
     const std::size_t byteOffset = value.countOr("byteOffset", 0);
     accessor.byteStride = accessor.elementBytes;
     if (!viewIndex) {
-        if (byteOffset != 0) value.reject("has an offset but no buffer view");
+        if (value.find("byteOffset")) value.reject("has an offset but no buffer view");
+        checkCount(value, accessor.info.count, limits.maxZeroElementCount);
         return;
     }
     const BufferView& view = views[*viewIndex];
@@ -134,6 +143,7 @@ void locateElements(const JsonCursor& value, const std::vector<BufferView>& view
     accessor.bytes =
         sliceView(value, view, byteOffset,
                   {accessor.info.count, accessor.byteStride, accessor.lastElementBytes});
+    accessor.isPlaceholder = view.bytes.empty();
     accessor.isPacked = view.byteStride == 0;
     accessor.isAligned =
         byteOffset % kAlignmentBytes == 0 && accessor.byteStride % kAlignmentBytes == 0;
@@ -152,20 +162,23 @@ Accessor parseAccessor(const JsonCursor& value, const std::vector<BufferView>& v
 
     info.count = value.at("count").toCount();
     if (info.count == 0) value.reject("has no elements");
-    if (info.count > std::max(limits.maxVertexCount, limits.maxIndexCount))
-        throw Error(ErrorCode::limitExceeded, value.place() + " has more elements than allowed");
+    checkCount(value, info.count, std::max(limits.maxVertexCount, limits.maxIndexCount));
 
-    const Shape& shape = parseShape(value.at("type"));
+    const Shape shape = parseShape(value.at("type"));
     info.componentCount = shape.columnCount * shape.rowCount;
+    if (info.componentCount == 0) return accessor;
     accessor.rowCount = shape.rowCount;
     const std::size_t columnBytes =
         static_cast<std::size_t>(shape.rowCount) * componentBytes(info.type);
     accessor.columnBytes = shape.columnCount == 1 ? columnBytes : roundUp(columnBytes);
     accessor.elementBytes = static_cast<std::size_t>(shape.columnCount) * accessor.columnBytes;
     accessor.lastElementBytes = accessor.elementBytes - (accessor.columnBytes - columnBytes);
-    locateElements(value, views, accessor);
-    if (const auto sparse = value.find("sparse"))
+    locateElements(value, views, limits, accessor);
+    if (const auto sparse = value.find("sparse")) {
         accessor.sparse = parseSparse(*sparse, accessor, views);
+        accessor.isPlaceholder |=
+            accessor.sparse->indices.empty() || accessor.sparse->values.empty();
+    }
     return accessor;
 }
 
@@ -189,6 +202,10 @@ std::uint32_t readIndex(const std::byte* bytes, ComponentType type) {
 template <class Visit>
 void visitElements(const Accessor& accessor, Visit visit) {
     static constexpr std::array<std::byte, kMaxElementBytes> kZeros{};
+    if (accessor.isPlaceholder)
+        throw Error(ErrorCode::malformed, accessor.place + " lies in a buffer without bytes", {},
+                    "the buffer has neither a URI nor a binary chunk");
+    if (accessor.info.componentCount == 0) return;
     const bool isZero = accessor.bytes.empty();
     for (std::size_t i = 0; i < accessor.info.count; ++i)
         visit(i, isZero ? kZeros.data() : accessor.bytes.data() + i * accessor.byteStride);

@@ -21,7 +21,8 @@ struct SparseElements {
     std::span<const std::byte> values;
 };
 
-/// A typed view of a buffer, which is known to hold all of its elements.
+/// A typed view of a buffer, which is known to have room for all of its elements. Of a type that
+/// glTF 2.0 does not know it has no components.
 struct Accessor {
     std::string place;
     AccessorInfo info;
@@ -32,8 +33,9 @@ struct Accessor {
     std::size_t byteStride = 0;
     std::span<const std::byte> bytes;  ///< from the first element on; empty if all are 0
     std::optional<SparseElements> sparse;
-    bool isAligned = true;  ///< to four bytes, each element, as vertex attributes must be
-    bool isPacked = true;   ///< its view has no stride, as that of indices must not
+    bool isPlaceholder = false;  ///< some of its bytes are in no file: reading it is an error
+    bool isAligned = true;       ///< to four bytes, each element, as vertex attributes must be
+    bool isPacked = true;        ///< its view has no stride, as that of indices must not
 };
 
 std::vector<Accessor> parseAccessors(const JsonCursor& root, const std::vector<BufferView>& views,

@@ -11,9 +11,10 @@
 
 namespace prt::gltf {
 
-/// A part of a buffer, whose bytes are known to be there.
+/// A part of a buffer, whose bytes are known to be there, unless the buffer is a placeholder.
 struct BufferView {
-    std::span<const std::byte> bytes;
+    std::span<const std::byte> bytes;  ///< empty in a placeholder, else byteLength of them
+    std::size_t byteLength = 0;
     std::size_t byteOffset = 0;  ///< in its buffer
     std::size_t byteStride = 0;  ///< 0 where elements are tightly packed
 };

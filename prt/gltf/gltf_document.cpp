@@ -126,4 +126,8 @@ std::span<const std::byte> GltfDocument::bufferViewBytes(std::size_t bufferView)
     return content_->model.buffers.views[bufferView].bytes;
 }
 
+std::size_t GltfDocument::trailingByteCount() const {
+    return content_->model.file.trailingByteCount;
+}
+
 }  // namespace prt

@@ -18,7 +18,7 @@ enum class ComponentType { int8, uint8, int16, uint16, uint32, float32 };
 
 struct AccessorInfo {
     std::size_t count = 0;
-    int componentCount = 1;  ///< 1 … 16
+    int componentCount = 1;  ///< 1 … 16; 0 for a type that glTF 2.0 does not know
     ComponentType type = ComponentType::float32;
     bool normalized = false;
 };
@@ -74,7 +74,11 @@ class GltfDocument {
 
     /// As accessorCount.
     std::size_t bufferViewCount() const;
+    /// None where the buffer is a placeholder, with neither a URI nor a binary chunk.
     std::span<const std::byte> bufferViewBytes(std::size_t bufferView) const;
+
+    /// The bytes after the end that a binary glTF's header states.
+    std::size_t trailingByteCount() const;
 
   private:
     struct Content;

@@ -44,18 +44,20 @@ void GltfFile::splitChunks() {
     if (readWord(4) != kVersion)
         throw Error(ErrorCode::unsupported,
                     "is binary glTF of version " + std::to_string(readWord(4)) + ", not 2");
-    if (readWord(8) != bytes.size())
-        reject("says it has " + std::to_string(readWord(8)) + " bytes but has " +
+    const std::size_t fileBytes = readWord(8);
+    if (fileBytes < kHeaderBytes + kChunkHeaderBytes || fileBytes > bytes.size())
+        reject("says it has " + std::to_string(fileBytes) + " bytes but has " +
                std::to_string(bytes.size()));
+    trailingByteCount = bytes.size() - fileBytes;
 
     // The first chunk is JSON, the second may be BIN, and all others are to be passed over.
     std::size_t offset = kHeaderBytes;
-    for (int chunk = 0; offset < bytes.size(); ++chunk) {
-        if (bytes.size() - offset < kChunkHeaderBytes) reject("ends within a chunk's header");
+    for (int chunk = 0; offset < fileBytes; ++chunk) {
+        if (fileBytes - offset < kChunkHeaderBytes) reject("ends within a chunk's header");
         const std::size_t chunkBytes = readWord(offset);
         const std::uint32_t type = readWord(offset + 4);
         offset += kChunkHeaderBytes;
-        if (chunkBytes > bytes.size() - offset) reject("has a chunk that ends beyond the file");
+        if (chunkBytes > fileBytes - offset) reject("has a chunk that ends beyond the file");
         if (chunkBytes % 4 != 0) reject("has a chunk that is not a multiple of four bytes long");
         if (chunk == 0 && type != kJsonChunk) reject("does not begin with a JSON chunk");
         const std::span<const std::byte> content = std::span(bytes).subspan(offset, chunkBytes);

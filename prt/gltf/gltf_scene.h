@@ -14,6 +14,8 @@ struct GltfLimits {
     std::size_t maxVertexCount = 200'000'000;     ///< after instances are flattened
     std::size_t maxIndexCount = 600'000'000;
     std::size_t maxMeshCount = 1'000'000;
+    /// Of an accessor without a buffer view: a short text can claim any number of zeros.
+    std::size_t maxZeroElementCount = 1'000'000;
     int maxNodeDepth = 256;
 };
 

@@ -244,6 +244,7 @@ TextureImage loadImage(const JsonCursor& value, const std::vector<BufferView>& v
     const auto view = value.findIndex("bufferView", views.size(), "buffer views");
     const std::optional<JsonCursor> uri = value.find("uri");
     if (view.has_value() == uri.has_value()) value.reject("must have a URI or a buffer view");
+    if (view && views[*view].bytes.empty()) value.reject("lies in a buffer without bytes");
     if (view)
         image.encoded.assign(views[*view].bytes.begin(), views[*view].bytes.end());
     else

@@ -87,6 +87,9 @@ Model::Model(std::vector<std::byte> fileBytes, const std::filesystem::path& fold
       json(parseJson(file.json)),
       loader(folder, bytesLeft(limits, file.bytes.size())) {
     checkVersion(root());
+    if (file.trailingByteCount > 0)
+        warnings.add(std::to_string(file.trailingByteCount) +
+                     " bytes after the end that the header states were left out");
     checkExtensions(root(), warnings);
     buffers = loadBuffers(root(), file, loader);
     accessors = parseAccessors(root(), buffers.views, limits);

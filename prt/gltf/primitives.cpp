@@ -20,6 +20,7 @@ bool isUnsigned(ComponentType type) {
 /// Whether an attribute may have a format [glTF 2.0, 3.7.2.1; KHR_mesh_quantization].
 bool isFormatAllowed(std::string_view semantic, const AccessorInfo& info, bool isQuantized) {
     const bool isFloat = info.type == ComponentType::float32;
+    if (info.type == ComponentType::uint32) return false;  // for indices alone
     const bool isShort = isSigned(info.type) || isUnsigned(info.type);
     const bool isUnsignedFraction = isUnsigned(info.type) && info.normalized;
     if (semantic == "POSITION")

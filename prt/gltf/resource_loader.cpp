@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -48,15 +49,6 @@ std::vector<std::byte> decodeBase64(std::string_view text, const JsonCursor& uri
     return bytes;
 }
 
-/// `data:[<media type>];base64,<data>` [RFC 2397]
-std::vector<std::byte> decodeDataUri(const JsonCursor& uri) {
-    const std::string_view text = uri.toString();
-    const std::size_t comma = text.find(',');
-    if (comma == std::string_view::npos || !text.substr(0, comma).ends_with(kBase64Marker))
-        uri.reject("is a data URI without base64 data");
-    return decodeBase64(text.substr(comma + 1), uri);
-}
-
 int hexDigit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -64,8 +56,7 @@ int hexDigit(char c) {
 }
 
 /// Replaces each %XX by its byte [RFC 3986, 2.1].
-std::string decodePercents(const JsonCursor& uri) {
-    const std::string& text = uri.toString();
+std::string decodePercents(std::string_view text, const JsonCursor& uri) {
     std::string decoded;
     decoded.reserve(text.size());
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -80,6 +71,20 @@ std::string decodePercents(const JsonCursor& uri) {
         i += 2;
     }
     return decoded;
+}
+
+/// `data:[<media type>][;base64],<data>` [RFC 2397]
+std::vector<std::byte> decodeDataUri(const JsonCursor& uri) {
+    const std::string_view text = uri.toString();
+    const std::size_t comma = text.find(',');
+    const std::string_view mediaType = text.substr(0, comma);
+    if (comma == std::string_view::npos || mediaType.find(";;") != std::string_view::npos)
+        uri.reject("is not a data URI");
+    const std::string_view data = text.substr(comma + 1);
+    if (mediaType.ends_with(kBase64Marker)) return decodeBase64(data, uri);
+    const std::string decoded = decodePercents(data, uri);
+    const auto bytes = std::as_bytes(std::span(decoded));
+    return {bytes.begin(), bytes.end()};
 }
 
 [[noreturn]] void refuseOutside(const JsonCursor& uri) {
@@ -107,7 +112,7 @@ bool liesWithin(const fs::path& folder, const fs::path& file) {
 }  // namespace
 
 fs::path ResourceLoader::resolve(const JsonCursor& uri) const {
-    const std::string name = decodePercents(uri);
+    const std::string name = decodePercents(uri.toString(), uri);
     const auto isControl = [](unsigned char c) { return std::iscntrl(c) != 0; };
     if (name.empty() || std::any_of(name.begin(), name.end(), isControl))
         uri.reject("is not a file's name");

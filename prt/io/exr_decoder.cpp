@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "prt/base/error.h"
+#include "prt/io/confined.h"
 #include "prt/io/exr.h"
 
 namespace prt {
@@ -99,7 +100,8 @@ Imf::FrameBuffer makeFrameBuffer(const ColorChannels& channels, const Imath::Box
     return buffer;
 }
 
-Image readFirstPart(Imf::MultiPartInputFile& file, const std::string& name) {
+void readFirstPart(Imf::MultiPartInputFile& file, const std::string& name, const ExrSize& size,
+                   Vec3f* pixels) {
     const Imf::Header& header = file.header(0);
     if (header.hasType() && Imf::isDeepData(header.type()))
         throw Error(ErrorCode::unsupported, "is a deep EXR image", name, "flatten it");
@@ -107,24 +109,16 @@ Image readFirstPart(Imf::MultiPartInputFile& file, const std::string& name) {
     checkSampling(header.channels(), channels, name);
 
     const Imath::Box2i window = header.dataWindow();
-    Image image;
-    image.width = window.max.x - window.min.x + 1;
-    image.height = window.max.y - window.min.y + 1;
-    // Reserving takes address space only: memory is used as blocks arrive,
-    // so a damaged file stays cheap.
-    image.pixels.reserve(std::size_t(image.width) * std::size_t(image.height));
-    image.pixels.resize(1);
+    if (window.max.x - window.min.x + 1 != size.width ||
+        window.max.y - window.min.y + 1 != size.height)
+        throw Error(ErrorCode::malformed, "is an EXR image with two data windows", name);
     Imf::InputPart part(file, 0);
-    part.setFrameBuffer(makeFrameBuffer(channels, window, image.pixels.data()));
-    for (int y = 0; y < image.height; y += kBlockLineCount) {
-        const int end = std::min(y + kBlockLineCount, image.height);
-        image.pixels.resize(std::size_t(image.width) * std::size_t(end));
-        part.readPixels(window.min.y + y, window.min.y + end - 1);
-    }
+    part.setFrameBuffer(makeFrameBuffer(channels, window, pixels));
+    for (int y = window.min.y; y <= window.max.y; y += kBlockLineCount)
+        part.readPixels(y, std::min(y + kBlockLineCount - 1, window.max.y));
     if (channels[1] == channels[0])
-        for (Vec3f& pixel : image.pixels)
-            pixel = Vec3f(pixel.x);
-    return image;
+        for (std::size_t i = 0; i < std::size_t(size.width) * std::size_t(size.height); ++i)
+            pixels[i] = Vec3f(pixels[i].x);
 }
 
 /// OpenEXR's own words without the full stop, to follow a colon.
@@ -135,17 +129,15 @@ std::string reasonOf(const std::exception& failure) {
     return reason;
 }
 
-}  // namespace
-
-Image decodeExr(std::span<const std::byte> encoded, const std::string& name,
-                const ImageLimits& limits) {
-    checkExrHeaders(encoded, name, limits);
+/// @param pixels  as many as the size has
+void readPixels(std::span<const std::byte> encoded, const std::string& name, const ExrSize& size,
+                Vec3f* pixels) {
     try {
         MemoryInput input(encoded);
         constexpr int kOwnThreads = 0;
         constexpr bool kMendMissingOffsets = false;
         Imf::MultiPartInputFile file(input, kOwnThreads, kMendMissingOffsets);
-        return readFirstPart(file, name);
+        readFirstPart(file, name, size, pixels);
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
@@ -153,6 +145,36 @@ Image decodeExr(std::span<const std::byte> encoded, const std::string& name,
     } catch (const std::exception& failure) {
         throw Error(ErrorCode::malformed, "is not a valid EXR image: " + reasonOf(failure), name);
     }
+}
+
+/// No compression decodes fewer pixels a second by far.
+constexpr double kSlowestPixelsPerSecond = 1e6;
+
+}  // namespace
+
+Image decodeExr(std::span<const std::byte> encoded, const std::string& name,
+                const ImageLimits& limits) {
+    const ExrSize size = checkExrHeaders(encoded, name, limits);
+    const std::size_t pixelCount = std::size_t(size.width) * std::size_t(size.height);
+    const SharedMemory shared(pixelCount * sizeof(Vec3f));
+    auto* pixels = reinterpret_cast<Vec3f*>(shared.bytes().data());
+    ConfinedLimits confinement;
+    confinement.seconds += double(pixelCount) / kSlowestPixelsPerSecond;
+    runConfined([&] { readPixels(encoded, name, size, pixels); }, confinement, name);
+
+    Image image;
+    image.width = size.width;
+    image.height = size.height;
+    image.pixels.assign(pixels, pixels + pixelCount);
+    return image;
+}
+
+Image decodeExrUnconfined(std::span<const std::byte> encoded, const std::string& name,
+                          const ImageLimits& limits) {
+    const ExrSize size = checkExrHeaders(encoded, name, limits);
+    Image image(size.width, size.height);
+    readPixels(encoded, name, size, image.pixels.data());
+    return image;
 }
 
 }  // namespace prt

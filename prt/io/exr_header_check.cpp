@@ -26,12 +26,12 @@ class ExrHeaderCheck {
                    const ImageLimits& limits)
         : bytes_(bytes), name_(name), limits_(limits) {}
 
-    void run() {
+    ExrSize run() {
         if (bytes_.size() < kMagicAndVersionBytes) fail("is too short for an EXR image");
         const bool isMultipart = readAt<std::uint32_t>(kVersionOffset) & kMultipartFlag;
         position_ = kMagicAndVersionBytes;
-        checkPart();
-        if (!isMultipart) return;
+        const ExrSize size = checkPart();
+        if (!isMultipart) return size;
         // The headers of a multipart file end with an empty one.
         std::size_t partCount = 1;
         while (!nextName().empty()) {
@@ -39,6 +39,7 @@ class ExrHeaderCheck {
             rewindName();
             checkPart();
         }
+        return size;
     }
 
   private:
@@ -74,7 +75,7 @@ class ExrHeaderCheck {
 
     void rewindName() { position_ = nameStart_; }
 
-    void checkPart() {
+    ExrSize checkPart() {
         std::optional<Window> window;
         std::optional<TileSize> tile;
         for (std::string_view attribute = nextName(); !attribute.empty(); attribute = nextName()) {
@@ -88,20 +89,22 @@ class ExrHeaderCheck {
             position_ += std::size_t(valueBytes);
         }
         if (!window) fail("is an EXR image without a data window");
-        checkSizes(*window, tile);
+        return checkSizes(*window, tile);
     }
 
-    void checkSizes(const Window& window, const std::optional<TileSize>& tile) const {
+    ExrSize checkSizes(const Window& window, const std::optional<TileSize>& tile) const {
         const std::int64_t width = std::int64_t(window.maxX) - window.minX + 1;
         const std::int64_t height = std::int64_t(window.maxY) - window.minY + 1;
         checkImageSize(width, height, limits_, name_);
-        if (!tile) return;
+        const ExrSize size{static_cast<int>(width), static_cast<int>(height)};
+        if (!tile) return size;
         checkImageSize(tile->width, tile->height, limits_, name_);
         // Each tile has an entry in the table of offsets that follows the headers.
         const std::int64_t tileCount = ((width + tile->width - 1) / tile->width) *
                                        ((height + tile->height - 1) / tile->height);
         if (tileCount * kChunkOffsetBytes > std::int64_t(bytes_.size()))
             fail("is too short for the EXR tiles that it claims");
+        return size;
     }
 
     std::span<const std::byte> bytes_;
@@ -113,9 +116,9 @@ class ExrHeaderCheck {
 
 }  // namespace
 
-void checkExrHeaders(std::span<const std::byte> encoded, const std::string& name,
-                     const ImageLimits& limits) {
-    ExrHeaderCheck(encoded, name, limits).run();
+ExrSize checkExrHeaders(std::span<const std::byte> encoded, const std::string& name,
+                        const ImageLimits& limits) {
+    return ExrHeaderCheck(encoded, name, limits).run();
 }
 
 }  // namespace prt
