@@ -1,4 +1,5 @@
-// PNG and JPEG, as textures and as environments, by stb_image behind checks of our own.
+// PNG and JPEG, as textures and as environments, by stb_image behind checks of our own, in a
+// process of its own.
 
 #include "prt/io/png_jpeg.h"
 

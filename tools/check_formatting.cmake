@@ -13,7 +13,7 @@ if(NOT version MATCHES "version 14\\.")
     return()
 endif()
 
-foreach(folder prt apps examples tests benchmarks)
+foreach(folder prt apps examples tests benchmarks fuzz)
     list(APPEND patterns "${ROOT}/${folder}/*.h" "${ROOT}/${folder}/*.cpp")
 endforeach()
 file(GLOB_RECURSE sources ${patterns})

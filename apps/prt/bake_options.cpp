@@ -85,10 +85,6 @@ void addRefineOptions(CLI::App& command, RefineArguments& refine) {
     addParsedOption(command, "--min-edge", refine.minEdgeLength, parsePositive, "LENGTH",
                     "but halve no edge under twice this, metres [a 256th of the scene's radius]")
         ->needs(error);
-    addParsedOption(command, "--max-vertices", refine.maxVertexCount, parseVertexCount, "N",
-                    "and stop before there are more vertices")
-        ->default_str(std::to_string(refine.maxVertexCount))
-        ->needs(error);
 }
 
 }  // namespace
@@ -128,6 +124,8 @@ void addRunOptions(CLI::App& command, BakeArguments& arguments) {
         ->check(CLI::PositiveNumber.description(""))
         ->type_name("BYTES")
         ->default_str("8G");
+    addVertexLimit(command, arguments.limits);
+    addPixelLimit(command, arguments.limits);
     command.add_option("--stats", arguments.stats, "write seconds, rays and memory as JSON")
         ->type_name("FILE.json");
 }
@@ -148,7 +146,7 @@ std::vector<Setting> callerSettings(const BakeArguments& arguments) {
     }
     settings.push_back({kRefineErrorSetting, fmt::format("{}", refine.maxError)});
     settings.push_back({kMinEdgeSetting, fmt::format("{}", refine.minEdgeLength)});
-    settings.push_back({kMaxVerticesSetting, std::to_string(refine.maxVertexCount)});
+    settings.push_back({kMaxVerticesSetting, std::to_string(arguments.limits.refinedVertices())});
     return settings;
 }
 
@@ -159,8 +157,8 @@ void adoptFolderSettings(const std::filesystem::path& folder, BakeArguments& arg
         arguments.maxEdgeLength = readSetting(settings, kMaxEdgeSetting, parseEdgeLength);
         if (findSetting(settings, kRefineErrorSetting) == "none") return;
         arguments.refine = {readSetting(settings, kRefineErrorSetting, parsePositive),
-                            readSetting(settings, kMinEdgeSetting, parsePositive),
-                            readSetting(settings, kMaxVerticesSetting, parseVertexCount)};
+                            readSetting(settings, kMinEdgeSetting, parsePositive)};
+        arguments.limits.maxVertices = readSetting(settings, kMaxVerticesSetting, parseVertexCount);
     } catch (const Error& error) {
         throw Error(error.code(), std::string("its manifest ") + error.what(), folder.string());
     }
@@ -178,8 +176,9 @@ Provenance makeProvenance(const BakeArguments& arguments, const BakeStats& stats
         isaName(stats.isa));
     const RefineArguments& refine = arguments.refine;
     if (refine.maxError > 0.0f)
-        command += fmt::format(" --refine-error {} --min-edge {} --max-vertices {}",
-                               refine.maxError, refine.minEdgeLength, refine.maxVertexCount);
+        command +=
+            fmt::format(" --refine-error {} --min-edge {} --max-vertices {}", refine.maxError,
+                        refine.minEdgeLength, arguments.limits.refinedVertices());
     return {.generator = "OpenPRT " PRT_VERSION,
             .command = command,
             .sampleCount = bake.sampleCount,

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/prt/limits.h"
 #include "prt/asset/asset.h"
 #include "prt/transport/bake.h"
-#include "prt/transport/refine_adaptively.h"
 
 namespace prt::cli {
 
@@ -20,7 +20,6 @@ inline constexpr float kKeepEdges = std::numeric_limits<float>::infinity();
 struct RefineArguments {
     float maxError = 0.0f;       ///< 0: nowhere
     float minEdgeLength = 0.0f;  ///< metres; 0 chooses from the scene
-    std::size_t maxVertexCount = AdaptiveRefineOptions{}.maxVertexCount;
 };
 
 /// What `prt bake` and `prt merge` are asked for.
@@ -32,6 +31,7 @@ struct BakeArguments {
     RefineArguments refine;
     TransferEncoding encoding = TransferEncoding::float32;
     BakeOptions bake;
+    ReaderLimits limits;
 };
 
 /// Adds the options that decide what is baked: --transport … --isa.

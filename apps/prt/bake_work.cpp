@@ -57,7 +57,7 @@ Scene refineWhereNeeded(Scene scene, BakeArguments& arguments, StageLog& log) {
     Scene refined = refineAdaptively(scene,
                                      {.maxError = refine.maxError,
                                       .minEdgeLength = refine.minEdgeLength,
-                                      .maxVertexCount = refine.maxVertexCount,
+                                      .maxVertexCount = arguments.limits.refinedVertices(),
                                       .bandCount = bake.bandCount,
                                       .sampleCount = bake.sampleCount,
                                       .seed = bake.seed,
@@ -77,7 +77,7 @@ Scene refineWhereNeeded(Scene scene, BakeArguments& arguments, StageLog& log) {
 /// the edge length that was chosen.
 Scene prepareScene(BakeArguments& arguments, StageLog& log) {
     Stopwatch watch;
-    Scene scene = loadScene(arguments.scene);
+    Scene scene = loadScene(arguments.scene, arguments.limits.scene());
     if (scene.triangleCount() == 0)
         throw Error(ErrorCode::malformed, "has no triangles to bake", arguments.scene);
     for (const std::string& warning : scene.warnings)
@@ -91,7 +91,8 @@ Scene prepareScene(BakeArguments& arguments, StageLog& log) {
 
     watch = Stopwatch();
     if (arguments.maxEdgeLength == 0.0f) arguments.maxEdgeLength = defaultMaxEdgeLength(scene);
-    Scene refined = refineEdges(scene, {.maxEdgeLength = arguments.maxEdgeLength});
+    Scene refined = refineEdges(scene, {.maxEdgeLength = arguments.maxEdgeLength,
+                                        .maxVertexCount = arguments.limits.refinedVertices()});
     log.finishStage("refine", watch.seconds(),
                     fmt::format("edges to {:.3g} m: {}, {}", arguments.maxEdgeLength,
                                 formatCount(refined.vertexCount(), "vertex"),

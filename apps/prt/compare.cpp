@@ -12,6 +12,7 @@
 #include "apps/prt/commands.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/light_argument.h"
+#include "apps/prt/limits.h"
 #include "apps/prt/relit_asset.h"
 #include "apps/prt/report.h"
 #include "apps/prt/stage_log.h"
@@ -44,6 +45,7 @@ struct CompareArguments {
     DisplayOptions display;
     std::uint64_t seed = 1;
     int threadCount = 0;
+    ReaderLimits limits;
     std::string command;  ///< as it was given
 };
 
@@ -122,7 +124,7 @@ class AssetComparison {
   private:
     Asset readTimed() {
         const Stopwatch watch;
-        Asset asset = readPreparedAsset(arguments_.asset, log_);
+        Asset asset = readPreparedAsset(arguments_.asset, arguments_.limits.images(), log_);
         addSeconds("load", watch.seconds());
         return asset;
     }
@@ -221,7 +223,7 @@ void runCompare(const CompareArguments& arguments) {
     AssetComparison comparison(arguments, log);
     std::vector<LightSource> sources;
     for (const std::string& light : arguments.lights) {
-        sources.push_back(loadLight(light, kMaxBandCount));
+        sources.push_back(loadLight(light, kMaxBandCount, {}, arguments.limits.images()));
         if (const auto mending = describeMending(sources.back().mended))
             log.warn(light + ": " + *mending);
     }
@@ -298,6 +300,7 @@ void addCompareCommand(CLI::App& app) {
                     "of the random paths")
         ->default_str("1");
     addIntegerOption(*command, "--threads", arguments->threadCount, 0, 4096, "0 for one a core");
+    addPixelLimit(*command, arguments->limits);
 
     command->callback([arguments, command] {
         arguments->command = describeCommand(arguments->asset, *command);

@@ -10,6 +10,7 @@
 #include "apps/prt/commands.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/light_argument.h"
+#include "apps/prt/limits.h"
 #include "apps/prt/picture.h"
 
 namespace prt::cli {
@@ -26,6 +27,7 @@ struct LightArguments {
     ShConvention convention = ShConvention::cs;
     CoefficientFormat format = CoefficientFormat::table;
     std::string reconstruction;
+    ReaderLimits limits;
 };
 
 std::optional<WindowChoice> parseWindow(std::string_view name) {
@@ -61,7 +63,8 @@ void runLight(const LightArguments& arguments) {
     if (!arguments.reconstruction.empty())
         requireSuffix(arguments.reconstruction, kPictureSuffixes);
 
-    const LightSource light = loadLight(arguments.light, arguments.bandCount, arguments.map);
+    const LightSource light =
+        loadLight(arguments.light, arguments.bandCount, arguments.map, arguments.limits.images());
     if (const auto mending = describeMending(light.mended))
         fmt::print(stderr, "prt: warning: {}: {}\n", arguments.light, *mending);
     const Lighting turned = rotate(light.lighting, rotationFromDegrees(arguments.rotationDegrees));
@@ -85,6 +88,7 @@ void addLightCommand(CLI::App& app) {
                      "n bands, n*n coefficients; 1 to 10; at most those of a JSON");
     addParsedOption(*command, "--map", arguments->map, parseSphereMap, sphereMapNames(),
                     "the image's layout [told by its shape]");
+    addPixelLimit(*command, arguments->limits);
     addParsedOption(*command, "--rotate", arguments->rotationDegrees, parseTriple, "X,Y,Z",
                     "turn about the world's x axis, then y, then z, degrees")
         ->default_str("0,0,0");

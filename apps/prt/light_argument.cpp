@@ -59,11 +59,12 @@ Lighting readCoefficients(const std::string& path, int bandCount) {
     return truncate(lighting, std::min(bandCount, lighting.bandCount));
 }
 
-LightSource readEnvironment(const std::string& path, int bandCount, std::optional<SphereMap> map) {
+LightSource readEnvironment(const std::string& path, int bandCount, std::optional<SphereMap> map,
+                            const ImageLimits& limits) {
     const bool looksLikePrefix = path.find(':') != std::string::npos && !fs::exists(path);
     if (looksLikePrefix)
         throwMalformed(path, "a file, uniform:r,g,b or sun:azimuth,elevation,angle");
-    LoadedEnvironment loaded = loadEnvironment(path, map);
+    LoadedEnvironment loaded = loadEnvironment(path, map, limits);
     return {projectLighting(loaded.environment, bandCount),
             std::move(loaded.environment),
             loaded.mended,
@@ -96,7 +97,8 @@ std::string sphereMapNames() {
     return fmt::format("{}", fmt::join(names, "|"));
 }
 
-LightSource loadLight(const std::string& argument, int bandCount, std::optional<SphereMap> map) {
+LightSource loadLight(const std::string& argument, int bandCount, std::optional<SphereMap> map,
+                      const ImageLimits& limits) {
     const bool isUniform = argument.starts_with(kUniformPrefix);
     const bool isSun = argument.starts_with(kSunPrefix);
     const bool isJson = fs::path(argument).extension() == ".json";
@@ -110,7 +112,7 @@ LightSource loadLight(const std::string& argument, int bandCount, std::optional<
                 .sun = sun};
     }
     if (isJson) return {.lighting = readCoefficients(argument, bandCount)};
-    return readEnvironment(argument, bandCount, map);
+    return readEnvironment(argument, bandCount, map, limits);
 }
 
 std::optional<std::string> describeMending(const SanitiseReport& mended) {

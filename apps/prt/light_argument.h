@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "prt/io/image_io.h"
 #include "prt/light/environment.h"
 #include "prt/light/lighting.h"
 #include "prt/render/distant_light.h"
@@ -41,9 +42,10 @@ struct LightSource {
 ///
 /// @param bandCount  of the lighting; coefficients from a file may have fewer
 /// @param map        forces the layout of an image
+/// @param limits     of an image
 /// @throws Error     as the readers of files; invalidOption for a malformed argument
-LightSource loadLight(const std::string& argument, int bandCount,
-                      std::optional<SphereMap> map = {});
+LightSource loadLight(const std::string& argument, int bandCount, std::optional<SphereMap> map,
+                      const ImageLimits& limits);
 
 /// The sentence that says which texels were mended; nothing where all were good.
 std::optional<std::string> describeMending(const SanitiseReport& mended);

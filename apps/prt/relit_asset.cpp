@@ -27,12 +27,12 @@ Relighter makeRelighter(const Asset& asset, const std::string& path, Transport t
 
 }  // namespace
 
-Asset readPreparedAsset(const std::string& path, StageLog& log) {
+Asset readPreparedAsset(const std::string& path, const ImageLimits& limits, StageLog& log) {
     const Stopwatch watch;
     Asset asset = readAsset(path);
     if (asset.scene.triangleCount() == 0)
         throw Error(ErrorCode::malformed, "has no triangles to show", path);
-    decodeTextures(asset.scene);
+    decodeTextures(asset.scene, limits);
     for (const std::string& warning : asset.scene.warnings)
         log.warn(path + ": " + warning);
     log.finishStage("load", watch.seconds(), path);

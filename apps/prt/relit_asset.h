@@ -5,12 +5,15 @@
 
 #include "apps/prt/stage_log.h"
 #include "prt/asset/asset.h"
+#include "prt/io/image_io.h"
 #include "prt/light/lighting.h"
 
 namespace prt::cli {
 
 /// Reads an asset that can be shown: with triangles, textures decoded, its warnings passed on.
-Asset readPreparedAsset(const std::string& path, StageLog& log);
+///
+/// @param limits  of its textures
+Asset readPreparedAsset(const std::string& path, const ImageLimits& limits, StageLog& log);
 
 /// The last of the layers that it was baked with.
 Transport fullestTransport(const CompressedTransfer& transfer);

@@ -9,6 +9,7 @@
 #include "apps/prt/commands.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/light_argument.h"
+#include "apps/prt/limits.h"
 #include "apps/prt/picture.h"
 #include "apps/prt/relit_asset.h"
 #include "apps/prt/stage_log.h"
@@ -28,6 +29,7 @@ struct RenderArguments {
     Vec3d rotationDegrees{0.0, 0.0, 0.0};
     DisplayOptions display;
     bool background = false;
+    ReaderLimits limits;
 };
 
 Image renderPicture(const RenderArguments& arguments, const Asset& asset, const LightSource& light,
@@ -62,8 +64,9 @@ void runRender(const RenderArguments& arguments) {
     stopIfInterrupted();
 
     StageLog log;
-    const Asset asset = readPreparedAsset(arguments.asset, log);
-    const LightSource light = loadLight(arguments.light, asset.transfer.bandCount);
+    const ImageLimits limits = arguments.limits.images();
+    const Asset asset = readPreparedAsset(arguments.asset, limits, log);
+    const LightSource light = loadLight(arguments.light, asset.transfer.bandCount, {}, limits);
     if (const auto mending = describeMending(light.mended))
         log.warn(arguments.light + ": " + *mending);
     const Image picture = renderPicture(arguments, asset, light, log);
@@ -105,6 +108,7 @@ void addRenderCommand(CLI::App& app) {
     const auto [exposure, tone] = addDisplayOptions(*command, arguments->display, " (.png)");
     command->add_flag("--background", arguments->background,
                       "show the light where no surface is, instead of black");
+    addPixelLimit(*command, arguments->limits);
 
     command->callback([arguments, exposure = exposure, tone = tone] {
         if (isExr(arguments->output) && exposure->count() + tone->count() > 0)

@@ -118,11 +118,13 @@ SparseElements parseSparse(const JsonCursor& sparse, const Accessor& accessor,
     return elements;
 }
 
-void checkCount(const JsonCursor& accessor, std::size_t count, std::size_t limit) {
+void checkCount(const JsonCursor& accessor, std::size_t count, std::size_t limit,
+                const char* hint) {
     if (count > limit)
-        throw Error(ErrorCode::limitExceeded, accessor.place() + " has " + std::to_string(count) +
-                                                  " elements, more than the limit of " +
-                                                  std::to_string(limit));
+        throw Error(ErrorCode::limitExceeded,
+                    accessor.place() + " has " + std::to_string(count) +
+                        " elements, more than the limit of " + std::to_string(limit),
+                    {}, hint);
 }
 
 void locateElements(const JsonCursor& value, const std::vector<BufferView>& views,
@@ -132,7 +134,8 @@ void locateElements(const JsonCursor& value, const std::vector<BufferView>& view
     accessor.byteStride = accessor.elementBytes;
     if (!viewIndex) {
         if (value.find("byteOffset")) value.reject("has an offset but no buffer view");
-        checkCount(value, accessor.info.count, limits.maxZeroElementCount);
+        checkCount(value, accessor.info.count, limits.maxZeroElementCount,
+                   "store them in a buffer view");
         return;
     }
     const BufferView& view = views[*viewIndex];
@@ -162,7 +165,8 @@ Accessor parseAccessor(const JsonCursor& value, const std::vector<BufferView>& v
 
     info.count = value.at("count").toCount();
     if (info.count == 0) value.reject("has no elements");
-    checkCount(value, info.count, std::max(limits.maxVertexCount, limits.maxIndexCount));
+    checkCount(value, info.count, std::max(limits.maxVertexCount, limits.maxIndexCount),
+               "allow more with --max-vertices");
 
     const Shape shape = parseShape(value.at("type"));
     info.componentCount = shape.columnCount * shape.rowCount;

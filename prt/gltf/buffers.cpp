@@ -28,6 +28,8 @@ Buffer loadBuffer(const JsonCursor& buffer, bool isFirst, const GltfFile& file,
         bytes = loaded;
     } else if (isFirst && file.binaryChunk) {
         bytes = *file.binaryChunk;
+    } else if (isFirst && file.isBinary) {
+        buffer.reject("has no URI, and the file has no binary chunk");
     } else if (byteLength > 0) {
         return {bytes, byteLength};
     }

@@ -89,6 +89,12 @@ void Flattener::findDrawable(std::size_t mesh, std::size_t index) {
     drawables_[mesh].push_back(drawable);
 }
 
+[[noreturn]] void throwLimit(const Node& node, const std::string& limit) {
+    throw Error(ErrorCode::limitExceeded,
+                node.place + " brings the scene beyond the limit of " + limit, {},
+                "allow more with --max-vertices");
+}
+
 void Flattener::checkLimits(const std::vector<PlacedNode>& nodes) const {
     const GltfLimits& limits = model_.limits;
     std::size_t meshesLeft = limits.maxMeshCount;
@@ -99,10 +105,10 @@ void Flattener::checkLimits(const std::vector<PlacedNode>& nodes) const {
         const Node& node = model_.nodeTree.nodes[placed.node];
         if (!node.mesh) continue;
         for (const Drawable& drawable : drawables_[*node.mesh]) {
-            if (meshesLeft == 0 || drawable.vertexCount > verticesLeft ||
-                drawable.triangleCount > trianglesLeft)
-                throw Error(ErrorCode::limitExceeded,
-                            node.place + " brings the scene beyond the largest size allowed");
+            if (meshesLeft == 0) throwLimit(node, std::to_string(limits.maxMeshCount) + " meshes");
+            if (drawable.vertexCount > verticesLeft || drawable.triangleCount > trianglesLeft)
+                throwLimit(node, std::to_string(limits.maxVertexCount) + " vertices and " +
+                                     std::to_string(limits.maxIndexCount / 3) + " triangles");
             --meshesLeft;
             verticesLeft -= drawable.vertexCount;
             trianglesLeft -= drawable.triangleCount;

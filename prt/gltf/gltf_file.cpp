@@ -27,7 +27,8 @@ constexpr std::size_t kChunkHeaderBytes = 8;
 }  // namespace
 
 GltfFile::GltfFile(std::vector<std::byte> fileBytes) : bytes(std::move(fileBytes)) {
-    if (bytes.size() >= sizeof(kMagic) && readWord(0) == kMagic)
+    isBinary = bytes.size() >= sizeof(kMagic) && readWord(0) == kMagic;
+    if (isBinary)
         splitChunks();
     else
         json = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

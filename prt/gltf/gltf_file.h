@@ -18,6 +18,7 @@ struct GltfFile {
 
     const std::vector<std::byte> bytes;
     std::string_view json;
+    bool isBinary = false;  ///< a .glb
     std::optional<std::span<const std::byte>> binaryChunk;
     std::size_t trailingByteCount = 0;  ///< after the end that the header states
 

@@ -69,7 +69,9 @@ void checkExtensions(const JsonCursor& root, Warnings& warnings) {
 /// How much may still be loaded after the glTF itself.
 std::uintmax_t bytesLeft(const GltfLimits& limits, std::size_t fileBytes) {
     if (fileBytes > limits.maxFileBytes)
-        throw Error(ErrorCode::limitExceeded, "is larger than the largest size allowed");
+        throw Error(ErrorCode::limitExceeded, "has " + std::to_string(fileBytes) +
+                                                  " bytes, more than the limit of " +
+                                                  std::to_string(limits.maxFileBytes));
     return limits.maxFileBytes - fileBytes;
 }
 

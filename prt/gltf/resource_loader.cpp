@@ -137,7 +137,8 @@ std::vector<std::byte> ResourceLoader::load(const JsonCursor& uri) {
                                        : readFile(resolve(uri), byteBudget_);
     if (bytes.size() > byteBudget_)
         throw Error(ErrorCode::limitExceeded,
-                    uri.place() + " brings the file beyond the largest size allowed");
+                    uri.place() + " has " + std::to_string(bytes.size()) + " bytes, and only " +
+                        std::to_string(byteBudget_) + " are left of the limit for all files");
     byteBudget_ -= bytes.size();
     return bytes;
 }

@@ -13,16 +13,9 @@ namespace prt {
 /// where one is missing), or Y as grey, or the first layer's R G B. Scan lines or tiles
 /// (the finest level), any compression.
 ///
-/// The OpenEXR library does this in a process of its own (confined.h): a file that crashes it is
-/// an Error.
-///
 /// @throws Error  malformed, unsupported (deep or subsampled data, other channels) or limitExceeded
 Image decodeExr(std::span<const std::byte> encoded, const std::string& name,
                 const ImageLimits& limits);
-
-/// The same in this process, for tests: what the library does to it is seen.
-Image decodeExrUnconfined(std::span<const std::byte> encoded, const std::string& name,
-                          const ImageLimits& limits);
 
 /// Channels R G B as 32-bit float, ZIP compressed.
 std::vector<std::byte> encodeExr(const Image& image);

@@ -16,6 +16,7 @@
 #include "prt/base/error.h"
 #include "prt/io/confined.h"
 #include "prt/io/exr.h"
+#include "prt/io/image_format.h"
 
 namespace prt {
 namespace {
@@ -147,9 +148,6 @@ void readPixels(std::span<const std::byte> encoded, const std::string& name, con
     }
 }
 
-/// No compression decodes fewer pixels a second by far.
-constexpr double kSlowestPixelsPerSecond = 1e6;
-
 }  // namespace
 
 Image decodeExr(std::span<const std::byte> encoded, const std::string& name,
@@ -158,22 +156,12 @@ Image decodeExr(std::span<const std::byte> encoded, const std::string& name,
     const std::size_t pixelCount = std::size_t(size.width) * std::size_t(size.height);
     const SharedMemory shared(pixelCount * sizeof(Vec3f));
     auto* pixels = reinterpret_cast<Vec3f*>(shared.bytes().data());
-    ConfinedLimits confinement;
-    confinement.seconds += double(pixelCount) / kSlowestPixelsPerSecond;
-    runConfined([&] { readPixels(encoded, name, size, pixels); }, confinement, name);
+    runDecoder([&] { readPixels(encoded, name, size, pixels); }, pixelCount, limits, name);
 
     Image image;
     image.width = size.width;
     image.height = size.height;
     image.pixels.assign(pixels, pixels + pixelCount);
-    return image;
-}
-
-Image decodeExrUnconfined(std::span<const std::byte> encoded, const std::string& name,
-                          const ImageLimits& limits) {
-    const ExrSize size = checkExrHeaders(encoded, name, limits);
-    Image image(size.width, size.height);
-    readPixels(encoded, name, size, image.pixels.data());
     return image;
 }
 

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "prt/base/error.h"
+#include "prt/io/confined.h"
 
 namespace prt {
 namespace {
@@ -34,7 +35,17 @@ void checkImageSize(std::int64_t width, std::int64_t height, const ImageLimits& 
         throw Error(ErrorCode::limitExceeded,
                     "has " + sizeText(width, height) + ", more than the limit of " +
                         sizeText(limits.maxWidth, limits.maxHeight),
-                    name, "scale the image down");
+                    name, "scale it down, or allow more with --max-pixels");
+}
+
+void runDecoder(const std::function<void()>& decode, std::size_t pixelCount,
+                const ImageLimits& limits, const std::string& name) {
+    if (!limits.inOwnProcess) return decode();
+    // No compression decodes fewer pixels a second by far.
+    constexpr double kSlowestPixelsPerSecond = 1e6;
+    ConfinedLimits confinement;
+    confinement.seconds += static_cast<double>(pixelCount) / kSlowestPixelsPerSecond;
+    runConfined(decode, confinement, name);
 }
 
 }  // namespace prt

@@ -94,7 +94,8 @@ class RadianceReader {
         const auto [end, failure] = std::from_chars(line.data(), line.data() + line.size(), extent);
         if (failure == std::errc::result_out_of_range)
             throw Error(ErrorCode::limitExceeded,
-                        "is more than " + std::to_string(limit) + " pixels wide or high", name_);
+                        "is more than " + std::to_string(limit) + " pixels wide or high", name_,
+                        "scale it down, or allow more with --max-pixels");
         if (failure != std::errc()) fail("has a resolution that is not a number");
         line.remove_prefix(static_cast<std::size_t>(end - line.data()));
         return extent;

@@ -5,8 +5,7 @@
 #include <string>
 
 #include "prt/base/error.h"
-#include "prt/gltf/gltf_scene.h"
-#include "prt/io/image_io.h"
+#include "prt/scene/check_scene.h"
 
 namespace prt {
 namespace {
@@ -18,9 +17,9 @@ std::string lowerCaseSuffix(const std::filesystem::path& path) {
     return suffix;
 }
 
-Scene readScene(const std::filesystem::path& path) {
+Scene readScene(const std::filesystem::path& path, const SceneLimits& limits) {
     const std::string suffix = lowerCaseSuffix(path);
-    if (suffix == ".gltf" || suffix == ".glb") return readGltf(path);
+    if (suffix == ".gltf" || suffix == ".glb") return readGltf(path, limits.gltf);
     if (suffix == ".obj") return readObj(path);
     if (suffix == ".ply") return readPly(path);
     throw Error(ErrorCode::unsupported, "is not a scene file that we read", path.string(),
@@ -29,9 +28,11 @@ Scene readScene(const std::filesystem::path& path) {
 
 }  // namespace
 
-Scene loadScene(const std::filesystem::path& path) {
-    Scene scene = readScene(path);
-    decodeTextures(scene);
+Scene loadScene(const std::filesystem::path& path, const SceneLimits& limits) {
+    Scene scene = readScene(path, limits);
+    decodeTextures(scene, limits.textures);
+    const std::vector<std::string> problems = findSceneProblems(scene);
+    scene.warnings.insert(scene.warnings.end(), problems.begin(), problems.end());
     return scene;
 }
 

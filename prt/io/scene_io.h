@@ -2,18 +2,25 @@
 
 #include <filesystem>
 
+#include "prt/gltf/gltf_scene.h"
+#include "prt/io/image_io.h"
 #include "prt/scene/scene.h"
 
 namespace prt {
+
+struct SceneLimits {
+    GltfLimits gltf;
+    ImageLimits textures;
+};
 
 /// Reads .gltf, .glb, .obj (with its .mtl) or .ply (ascii, little and big endian) as told by the
 /// file's suffix, with textures decoded and normals present.
 ///
 /// OBJ and PLY files are taken as metres, Y up (C1); OBJ vertices are split only where UV or normal
-/// differ; polygons are cut into triangles. Triangles without area are kept, they catch no ray.
+/// differ; polygons are cut into triangles. What findSceneProblems finds is kept, with a warning.
 ///
 /// @throws Error  notFound, unreadable, malformed, unsupported, or limitExceeded
-Scene loadScene(const std::filesystem::path& path);
+Scene loadScene(const std::filesystem::path& path, const SceneLimits& limits = {});
 
 /// Reads a Wavefront OBJ as one mesh a material. Textures stay encoded.
 ///

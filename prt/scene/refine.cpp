@@ -125,7 +125,7 @@ class EdgeSplitter {
     void addMiddle(std::uint32_t a, std::uint32_t b) {
         if (middles_.size() > maxNewVertexCount_ || mesh_.vertexCount() >= kNotSplit) {
             throw Error(ErrorCode::limitExceeded, "refining the scene makes too many vertices", {},
-                        "allow longer edges or more vertices");
+                        "allow longer edges (--max-edge) or more vertices (--max-vertices)");
         }
         mesh_.positions.push_back(midpointOf(mesh_.positions[a], mesh_.positions[b]));
         if (!mesh_.normals.empty())

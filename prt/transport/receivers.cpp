@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,13 @@ class CornerTable {
             const Corner corner = makeCorner(corners_[i]);
             if (corner.normal != Vec3f(0.0f)) corners.push_back(corner);
         }
+        // Sums over corners must not depend on the order of the scene's triangles.
+        const auto keyOf = [](const Corner& c) {
+            return std::tie(c.toCentroid.x, c.toCentroid.y, c.toCentroid.z, c.normal.x, c.normal.y,
+                            c.normal.z);
+        };
+        std::sort(corners.begin(), corners.end(),
+                  [&](const Corner& a, const Corner& b) { return keyOf(a) < keyOf(b); });
     }
 
   private:

@@ -12,9 +12,9 @@ namespace prt {
 struct AdaptiveRefineOptions {
     float maxError = 0.05f;      ///< of the transfer of an open surface; see refineAdaptively
     float minEdgeLength = 0.0f;  ///< metres; no shorter edge is made; 0: defaultMinEdgeLength
-    std::size_t maxVertexCount = 2'000'000;  ///< stop, worst edges first, before there are more
-    int bandCount = 5;                       ///< those of the bake to come
-    int sampleCount = 1024;                  ///< rays a tested point, 16 … 65536
+    std::size_t maxVertexCount = 20'000'000;  ///< stop, worst edges first, before there are more
+    int bandCount = 5;                        ///< those of the bake to come
+    int sampleCount = 1024;                   ///< rays a tested point, 16 … 65536
     std::uint64_t seed = 1;
     int threadCount = 0;       ///< 0: one a core
     std::optional<Isa> isa{};  ///< pins the instruction set (C10)

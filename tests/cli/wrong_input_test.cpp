@@ -134,6 +134,26 @@ TEST(CliWrongLight, AnExrHeaderThatClaimsABillionPixelsIsRefused) {
     expectOneSentence(folder, {"light", "huge.exr"}, kDataAtFault, {"huge.exr", "32768"});
 }
 
+TEST(CliLimits, PixelsBeyondTheLimitAreRefusedAndTheLimitCanBeMoved) {
+    const TemporaryFolder folder;
+    writeExr(folder.path() / "sky.exr", Image(8, 4, Vec3f(1.0f)));
+    expectOneSentence(folder, {"light", "sky.exr", "--max-pixels", "7"}, kDataAtFault,
+                      {"sky.exr", "8 × 4", "limit of 7 × 7", "--max-pixels"});
+    EXPECT_EQ(runPrt(folder, {"light", "sky.exr", "--max-pixels", "8"}).exitCode, 0);
+    expectOneSentence(folder, {"light", "sky.exr", "--max-pixels", "0"}, kWrongUsage,
+                      {"--max-pixels"});
+}
+
+TEST(CliLimits, VerticesBeyondTheLimitAreRefusedAndTheLimitCanBeMoved) {
+    const TemporaryFolder folder;
+    writeText(folder.path() / "a.gltf", TriangleGltf().text());
+    std::vector<std::string> command = bakeCommand("a.gltf");
+    command.insert(command.end(), {"--max-vertices", "2"});
+    expectOneSentence(folder, command, kDataAtFault, {"a.gltf", "limit of 2", "--max-vertices"});
+    command.back() = "3";
+    EXPECT_EQ(runPrt(folder, command).exitCode, 0);
+}
+
 TEST(CliWrongLight, AnUnreadableImageIsRefused) {
     const TemporaryFolder folder;
     writeText(folder.path() / "sky.png", "not a picture");

@@ -364,12 +364,18 @@ TEST(GltfHostile, UrisMayNotLeaveTheFolder) {
         EXPECT_FALSE(isReadThrough(uri)) << uri;
 }
 
-TEST(GltfHostile, DataUrisMustBeBase64) {
+TEST(GltfHostile, DataUrisMustBeWhole) {
     const std::string good =
         "data:application/octet-stream;base64," + encodeBase64(makeTriangleFile().bytes);
     const auto isReadThrough = [&](const std::string& uri) { return isRead(makeFileWithUri(uri)); };
     EXPECT_TRUE(isReadThrough(good));
     EXPECT_TRUE(isReadThrough("data:;base64," + encodeBase64(makeTriangleFile().bytes)));
+    std::string percents = "data:,";
+    for (const std::byte byte : makeTriangleFile().bytes)
+        percents += byte == std::byte{0} ? "%00" : byte == std::byte{0x3f} ? "?" : "%80";
+    EXPECT_TRUE(isReadThrough(percents));
+    EXPECT_FALSE(isReadThrough(percents.substr(0, percents.size() - 1)));
+    EXPECT_FALSE(isReadThrough("data:;" + good.substr(good.find(";base64"))));
     for (const std::string& uri : std::vector<std::string>{
              "data:", "data:,", "data:;base64,", "data:application/octet-stream,AAAA",
              good.substr(0, good.size() - 4), good.substr(0, good.size() - 7), good + "=",
@@ -431,6 +437,30 @@ TEST(GltfHostile, CountsWithoutBytesBehindThemAreLimited) {
         builder.json["accessors"][0]["count"] = Json::parse(count);
         expectRefused(builder, count);
     }
+    builder.json["accessors"][0]["count"] = 3'000'000;
+    expectRefused(builder, "gigabytes of zeros from a few bytes");
+    builder.json["accessors"][0]["count"] = 3;
+    EXPECT_TRUE(isRead(builder));
+    builder.json["accessors"][0]["byteOffset"] = 0;
+    expectRefused(builder, "an offset into no view");
+}
+
+TEST(GltfHostile, StridesMustFit) {
+    GltfBuilder builder = makeTriangleFile();
+    builder.json["bufferViews"][0]["byteStride"] = 12;
+    EXPECT_TRUE(isRead(builder));
+    builder.json["bufferViews"][0]["target"] = 34963;
+    expectRefused(builder, "a stride in a view of indices");
+    builder.json["bufferViews"][0]["target"] = 34962;
+    builder.json["bufferViews"][0]["byteStride"] = 40;
+    expectRefused(builder, "a stride beyond the view");
+}
+
+TEST(GltfHostile, AttributesAreNoLongIntegers) {
+    GltfBuilder builder = makeTriangleFile();
+    const auto ids = builder.addArray(std::vector<std::uint32_t>{1, 2, 3}, "SCALAR", 3);
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["_ID"] = ids;
+    expectRefused(builder, "an attribute of 32-bit integers");
 }
 
 }  // namespace

@@ -241,6 +241,47 @@ TEST(GltfScene, UnknownChunksAreIgnored) {
     EXPECT_EQ(readGltf(folder.write("scene.glb", file)).triangleCount(), 4u);
 }
 
+TEST(GltfScene, BytesAfterTheEndAreLeftOutWithAWarning) {
+    std::vector<std::byte> file = makeTetrahedronFile().glb();
+    file.insert(file.end(), 5, std::byte{'x'});
+    const GltfDocument document(file, "");
+    EXPECT_EQ(document.trailingByteCount(), 5u);
+    const Scene scene = document.flatten().scene;
+    EXPECT_EQ(scene.triangleCount(), 4u);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("5 bytes after the end"), std::string::npos);
+}
+
+TEST(GltfScene, APlaceholderBufferIsMissedOnlyWhereItIsUsed) {
+    GltfBuilder builder = makeTetrahedronFile();
+    builder.json = builder.finished();
+    const auto buffer = builder.add("buffers", {{"byteLength", 1024}});
+    const auto view = builder.add("bufferViews", {{"buffer", buffer}, {"byteLength", 36}});
+    builder.add("accessors",
+                {{"bufferView", view}, {"componentType", 5126}, {"type", "VEC3"}, {"count", 3}});
+    EXPECT_EQ(builder.read().triangleCount(), 4u);
+    builder.json["meshes"][0]["primitives"][0] = {{"attributes", {{"POSITION", 2}}}};
+    try {
+        builder.read();
+        FAIL() << "positions that are nowhere were read";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::malformed);
+        EXPECT_STREQ(error.what(), "accessors[2] lies in a buffer without bytes");
+    }
+    builder.json["accessors"][2]["count"] = 4;
+    EXPECT_THROW(builder.read(), Error) << "it has a length all the same";
+}
+
+TEST(GltfScene, AnAccessorOfAnUnknownTypeIsMissedOnlyWhereItIsUsed) {
+    GltfBuilder builder = makeTetrahedronFile();
+    const std::size_t odd = builder.addVectors(kTriangle);
+    builder.json["accessors"][odd]["type"] = "QUATERNION";
+    EXPECT_EQ(builder.read().triangleCount(), 4u);
+    EXPECT_TRUE(GltfDocument(builder.glb(), "").readFloats(odd).empty());
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = odd;
+    EXPECT_THROW(builder.read(), Error);
+}
+
 TEST(GltfScene, RequiredExtensionsMustBeUnderstood) {
     GltfBuilder builder = makeTriangleFile();
     builder.json["extensionsUsed"] = {"KHR_materials_unlit", "EXT_lights_ies"};

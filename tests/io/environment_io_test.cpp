@@ -85,6 +85,40 @@ TEST(EnvironmentIo, SixFacesBecomeAStrip) {
     }
 }
 
+/// The direction that OpenGL samples at (s, t) of a face, t counted from the first row in memory
+/// (OpenGL 4.6, table 8.19: r solved for s_c, t_c and m_a).
+Vec3f directionOfFace(std::size_t face, float s, float t) {
+    const float sc = 2.0f * s - 1.0f, tc = 2.0f * t - 1.0f;
+    const Vec3f directions[6] = {{1, -tc, -sc}, {-1, -tc, sc}, {sc, 1, tc},
+                                 {sc, -1, -tc}, {sc, -tc, 1},  {-sc, -tc, -1}};
+    return directions[face].normalized();
+}
+
+TEST(EnvironmentIo, FacesLieWhereOpenGlSamplesThem) {  // C4
+    const TemporaryFolder folder;
+    constexpr int kSize = 4;
+    const char* names[6] = {"px", "nx", "py", "ny", "pz", "nz"};
+    const auto valueOf = [](std::size_t face, int x, int y) {
+        return float(100 * face + 10 * std::size_t(x) + std::size_t(y) + 1);
+    };
+    for (std::size_t face = 0; face < 6; ++face) {
+        Image image(kSize, kSize);
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize; ++x)
+                image.at(x, y) = Vec3f(valueOf(face, x, y));
+        writeImage(folder, std::string(names[face]) + ".exr", image);
+    }
+    const Environment environment = loadEnvironment(folder.path()).environment;
+    for (std::size_t face = 0; face < 6; ++face)
+        for (const int x : {0, kSize - 1})
+            for (const int y : {0, kSize - 1}) {
+                const Vec3f direction =
+                    directionOfFace(face, (float(x) + 0.5f) / kSize, (float(y) + 0.5f) / kSize);
+                EXPECT_NEAR(lookUpRadiance(environment, direction).x, valueOf(face, x, y), 1e-2f)
+                    << names[face] << " " << x << ", " << y;
+            }
+}
+
 TEST(EnvironmentIo, FacesThatMakeNoCubeAreRefused) {
     const TemporaryFolder folder;
     for (const char* name : {"px.exr", "nx.exr", "py.exr", "ny.exr", "pz.exr"})

@@ -47,6 +47,16 @@ TEST(LoadScene, OtherSuffixesAreUnsupportedAndTheHintNamesOurs) {
         EXPECT_NE(error.hint().find(suffix), std::string::npos) << suffix;
 }
 
+TEST(LoadScene, OdditiesAreKeptAndCounted) {
+    const TemporaryFolder folder;
+    const Scene scene = loadScene(
+        folder.write("odd.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 1 2 3\nf 1 1 2\n"));
+    EXPECT_EQ(scene.triangleCount(), 3u);
+    EXPECT_EQ(scene.warnings,
+              (std::vector<std::string>{"1 triangle has no area, and no ray meets it",
+                                        "1 triangle lies exactly on another"}));
+}
+
 TEST(LoadScene, MissingFilesAreNotFound) {
     const TemporaryFolder folder;
     for (const char* name : {"none.obj", "none.ply", "none.glb", "none.gltf"}) {
