@@ -183,7 +183,7 @@ TEST(GltfHostile, WhatMustBeAWholeNumberIsNothingElse) {
     }
 }
 
-TEST(GltfHostile, OffsetsAndLengthsThatWrapAroundAreRefused) {
+TEST(GltfHostile, OffsetsAndLengthsThatWrapAroundAreRefused) {  // F6
     const std::uint64_t huge = std::uint64_t(1) << 53;
     for (const std::uint64_t number : {huge, huge - 4, huge / 2, std::uint64_t(1) << 32}) {
         for (const char* place :
@@ -226,7 +226,7 @@ GltfBuilder makeIndexedFile(const std::vector<std::uint8_t>& corners, std::size_
     return builder;
 }
 
-TEST(GltfHostile, IndicesMustBeVertices) {
+TEST(GltfHostile, IndicesMustBeVertices) {  // F5, F6
     EXPECT_NO_THROW(makeIndexedFile({0, 1, 2}, 3).read());
     expectRefused(makeIndexedFile({0, 1, 3}, 3), "an index beyond the vertices");
     expectRefused(makeIndexedFile({0, 1, 255}, 300), "a primitive restart");

@@ -38,7 +38,7 @@ TEST(Confined, ErrorsComeBackWhole) {
     EXPECT_EQ(runFailing([] { throw std::bad_alloc(); }).code(), ErrorCode::outOfMemory);
 }
 
-TEST(Confined, ACrashIsAnError) {
+TEST(Confined, ACrashIsAnError) {  // F8
     for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGKILL}) {
         const Error error = runFailing([crash] { std::raise(crash); });
         EXPECT_EQ(error.code(), ErrorCode::malformed);

@@ -153,7 +153,7 @@ TEST(Exr, OtherChannelsAreRefusedByName) {
     EXPECT_NE(std::string(error.what()).find("Q, Z"), std::string::npos) << error.what();
 }
 
-TEST(Exr, FloatsComeBackBitForBit) {
+TEST(Exr, FloatsComeBackBitForBit) {  // F10
     const TemporaryFolder folder;
     for (const int height : {1, 16, 37}) {
         const Image image = makeExtremeImage(29, height);
@@ -250,7 +250,7 @@ std::size_t peakBytes() {
     return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-TEST(Exr, HugeClaimsOfSmallFilesCostLittleMemory) {
+TEST(Exr, HugeClaimsOfSmallFilesCostLittleMemory) {  // F9
 #ifdef __SANITIZE_ADDRESS__
     constexpr std::size_t kKeptFreedBytes = std::size_t(512) << 20;  // the sanitizer's quarantine
 #else

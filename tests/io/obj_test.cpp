@@ -131,7 +131,7 @@ TEST(Obj, ConcavePolygonsKeepTheirShape) {
     EXPECT_FLOAT_EQ(area, 1.0f);  // a fan would cover 3
 }
 
-TEST(Obj, ErrorsNameTheLine) {
+TEST(Obj, ErrorsNameTheLine) {  // F7
     const std::vector<std::pair<std::string, std::string>> wrong = {
         {kSquare + "f 1 2 5\n", "line 5"},
         {kSquare + "\nf 1 2 -5\n", "line 6"},

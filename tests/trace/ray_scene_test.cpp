@@ -66,7 +66,7 @@ TEST(RayScene, RaysEndAtTheirLength) {
     EXPECT_TRUE(rays.intersect({{0.5f, 0.4f, 1.0f}, down, 0.99f}).escaped);
 }
 
-TEST(RayScene, RaysThatAreNotFiniteEscape) {  // G5
+TEST(RayScene, RaysThatAreNotFiniteEscape) {  // G5, F4
     const Scene scene = makeUnitQuadScene();
     const RayScene rays(scene);
     for (const float bad : {kNan, kInfinity, -kInfinity, 1e30f})
