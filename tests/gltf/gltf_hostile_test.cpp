@@ -14,8 +14,6 @@
 namespace prt::test {
 namespace {
 
-namespace fs = std::filesystem;
-
 void expectRefused(const GltfBuilder& builder, const std::string& why) {
     EXPECT_FALSE(isRead(builder)) << why;
 }
