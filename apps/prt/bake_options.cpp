@@ -81,7 +81,7 @@ std::optional<Isa> parseRunnableIsa(std::string_view name) {
 void addRefineOptions(CLI::App& command, RefineArguments& refine) {
     CLI::Option* error = addParsedOption(
         command, "--refine-error", refine.maxError, parsePositive, "ERROR",
-        "add vertices where interpolated transfer is off by more, of an open surface's; try 0.05");
+        "add vertices where interpolation is off by this part of a full sky; try 0.05");
     addParsedOption(command, "--min-edge", refine.minEdgeLength, parsePositive, "LENGTH",
                     "but halve no edge under twice this, metres [a 256th of the scene's radius]")
         ->needs(error);
