@@ -8,10 +8,13 @@
 #include <string>
 #include <string_view>
 
+#include "fuzz/checkpoint_target.h"
 #include "fuzz/exr_seeds.h"
 #include "prt/io/environment_io.h"
 #include "prt/io/exr.h"
 #include "prt/io/image_io.h"
+#include "prt/scene/procedural.h"
+#include "prt/transport/bake_settings.h"
 #include "tests/asset/asset_builder.h"
 #include "tests/gltf/full_file.h"
 #include "tests/io/exr_bytes.h"
@@ -146,6 +149,21 @@ void writeLights(const SeedFolder& seeds) {
                     prt::lightingToJson(lighting, convention));
 }
 
+void writeCheckpoints(const SeedFolder& seeds) {
+    const prt::GatherUnitShape shape = prt::fuzz::unitShape();
+    prt::GatherUnit unit;
+    unit.transfer.assign(shape.receivers.size() * shape.coefficientCount, 0.25f);
+    unit.slab.rowEnds = {1, 3};
+    unit.slab.entries = {{1, prt::Vec3f(0.5f)}, {2, prt::Vec3f(0.1f)}, {7, prt::Vec3f(0.2f)}};
+    const std::vector<std::byte> payload = prt::encodeGatherUnit(unit, shape);
+    seeds.write("checkpoint", "payload", payload);
+    seeds.write("checkpoint", "unit",
+                prt::encodeUnit(prt::fuzz::kWorkFingerprint, prt::fuzz::unitKey(), payload));
+    seeds.write("checkpoint", "manifest",
+                prt::encodeManifest(
+                    prt::bakeSettings(prt::makeProceduralScene("blocker"), {}, prt::Isa::avx2)));
+}
+
 }  // namespace
 
 int main(int argumentCount, char** arguments) {
@@ -160,5 +178,6 @@ int main(int argumentCount, char** arguments) {
     writePly(seeds);
     writePictures(seeds);
     writeLights(seeds);
+    writeCheckpoints(seeds);
     return 0;
 }
