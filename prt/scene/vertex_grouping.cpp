@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::uint32_t kEmptySlot = 0xffffffffu;
 
-std::uint64_t hashKey(const VertexKey& key) {
+}  // namespace
+
+std::size_t VertexKeyHash::operator()(const VertexKey& key) const {
     std::uint64_t hash = 0;
     for (const std::uint32_t word : key)
         hash = mixBits(hash ^ word);
-    return hash;
+    return static_cast<std::size_t>(hash);
 }
-
-}  // namespace
 
 void putVector(VertexKey& key, std::size_t first, const Vec3f& vector) {
     // Adding +0 turns -0 into +0 and changes nothing else.
@@ -33,7 +33,7 @@ VertexGrouping::VertexGrouping(std::size_t vertexCount)
 
 std::uint32_t VertexGrouping::groupOf(const VertexKey& key) {
     const std::size_t mask = groups_.size() - 1;
-    std::size_t slot = static_cast<std::size_t>(hashKey(key)) & mask;
+    std::size_t slot = VertexKeyHash()(key) & mask;
     while (groups_[slot] != kEmptySlot && keys_[groups_[slot]] != key)
         slot = (slot + 1) & mask;
     if (groups_[slot] == kEmptySlot) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +11,11 @@ namespace prt {
 
 /// Everything by which vertices are told apart, as bits; unused words are 0.
 using VertexKey = std::array<std::uint32_t, 7>;
+
+/// For hash tables of keys.
+struct VertexKeyHash {
+    std::size_t operator()(const VertexKey& key) const;
+};
 
 /// Writes the bits of a vector to the key's words first, first + 1, first + 2, with −0 as 0.
 void putVector(VertexKey& key, std::size_t first, const Vec3f& vector);

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "prt/base/error.h"
-#include "prt/base/random.h"
 #include "prt/basis/sh.h"
 #include "prt/parallel/parallel_for.h"
 #include "prt/scene/refine.h"
@@ -27,16 +26,7 @@ namespace {
 
 constexpr std::size_t kReceiversPerTask = 128;
 
-struct KeyHash {
-    std::size_t operator()(const VertexKey& key) const {
-        std::uint64_t hash = 0;
-        for (const std::uint32_t word : key)
-            hash = mixBits(hash ^ word);
-        return static_cast<std::size_t>(hash);
-    }
-};
-
-using EdgeSet = std::unordered_set<VertexKey, KeyHash>;
+using EdgeSet = std::unordered_set<VertexKey, VertexKeyHash>;
 
 /// The bits of both ends, in whichever order they are given.
 VertexKey edgeKey(const Vec3f& a, const Vec3f& b) {
@@ -125,7 +115,7 @@ class TransferCache {
     GatherKernels kernels_;
     SamplePattern pattern_;
     std::size_t coefficientCount_;
-    std::unordered_map<VertexKey, std::size_t, KeyHash> places_;
+    std::unordered_map<VertexKey, std::size_t, VertexKeyHash> places_;
     std::vector<float> transfer_;
 };
 
@@ -198,7 +188,7 @@ class AdaptiveRefiner {
         transfer_.addVertices(halved, stats_.passCount + 1);
 
         // Triangles of several meshes may share an edge: the worst of them decides.
-        std::unordered_map<VertexKey, double, KeyHash> errors;
+        std::unordered_map<VertexKey, double, VertexKeyHash> errors;
         for (const SplitEdge& edge : edges) {
             const Mesh& mesh = halved.meshes[edge.mesh];
             const VertexKey key = edgeKey(mesh.positions[edge.a], mesh.positions[edge.b]);
