@@ -27,6 +27,7 @@ constexpr std::size_t kChunkHeaderBytes = 8;
 }  // namespace
 
 GltfFile::GltfFile(std::vector<std::byte> fileBytes) : bytes(std::move(fileBytes)) {
+    if (bytes.empty()) reject("is empty");
     isBinary = bytes.size() >= sizeof(kMagic) && readWord(0) == kMagic;
     if (isBinary)
         splitChunks();

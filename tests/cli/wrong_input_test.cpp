@@ -77,7 +77,7 @@ std::vector<BadScene> badScenes() {
     const TriangleGltf lostBuffer{.uri = "lost.bin"};
     return {
         {"Missing", "a.glb", [](const TemporaryFolder&) {}, {"a.glb", "does not exist"}},
-        {"Empty", "a.glb", writing("a.glb", ""), {"a.glb"}},
+        {"Empty", "a.glb", writing("a.glb", ""), {"a.glb", "is empty"}},
         {"NotAGltf", "a.gltf", writing("a.gltf", "Dear diary, this is no scene."), {"a.gltf"}},
         {"UnknownSuffix", "a.blend", writing("a.blend", "BLENDER"), {"a.blend"}},
         {"TruncatedGlb", "short.glb", writeTruncatedGlb, {"short.glb"}},
