@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -78,14 +77,12 @@ AtomicFile::~AtomicFile() {
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-void AtomicFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
-    size_ = std::max(size_, offset + bytes.size());
+void AtomicFile::append(std::span<const std::byte> bytes) {
+    size_ += bytes.size();
     while (!bytes.empty()) {
-        const ssize_t written =
-            ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) throwWriteFailed(destination_, errno);
-        offset += static_cast<std::uint64_t>(written);
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
 }
@@ -116,7 +113,7 @@ void AtomicFile::requireSize() const {
 
 void writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {
     AtomicFile file(path);
-    file.write(0, bytes);
+    file.append(bytes);
     file.commit();
 }
 

@@ -25,8 +25,8 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    /// Parts may come in any order; what no part covers is zero.
-    void write(std::uint64_t offset, std::span<const std::byte> bytes);
+    /// Adds bytes at the end.
+    void append(std::span<const std::byte> bytes);
 
     /// Flushes the bytes to the disk, and then lets the name point at them [OSDI14].
     void commit();

@@ -1,6 +1,5 @@
 #include "prt/gltf/glb_writer.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "prt/base/assert.h"
@@ -48,8 +47,8 @@ GlbChunks layOutChunks(std::size_t jsonBytes, std::size_t binaryBytes) {
     return chunks;
 }
 
-/// Takes a part of the file. Parts come in any order and cover all of it.
-using PartWriter = std::function<void(std::size_t offset, std::span<const std::byte> bytes)>;
+/// Takes the next part of the file.
+using PartWriter = std::function<void(std::span<const std::byte> bytes)>;
 
 void appendWord(std::string& bytes, std::size_t word) {
     const auto narrow = static_cast<std::uint32_t>(word);
@@ -73,7 +72,8 @@ std::string makeFront(const GlbChunks& chunks, std::string json) {
     return front;
 }
 
-/// Makes the file part by part, of which only the largest view is in memory at once.
+/// Makes the file part by part, from its beginning to its end, with only the largest view in memory
+/// at once. The checksums stand before the views, so each view is made twice.
 void makeGlb(const Scene& scene, const GlbExtension* extension, const PartWriter& write) {
     if (extension)
         PRT_ASSERT(extension->meshJson.size() == scene.meshes.size() &&
@@ -87,19 +87,23 @@ void makeGlb(const Scene& scene, const GlbExtension* extension, const PartWriter
     const GlbChunks chunks = layOutChunks(jsonBytes, layout.byteLength);
 
     std::vector<std::byte> bytes;
-    for (std::size_t i = 0; i < layout.views.size(); ++i) {
-        const gltf::ViewLayout& view = layout.views[i];
+    const auto makeView = [&](const gltf::ViewLayout& view) {
         bytes.assign(view.byteLength, std::byte{0});
         gltf::writeView(view, bytes);
+    };
+    for (std::size_t i = 0; i < layout.views.size(); ++i) {
+        makeView(layout.views[i]);
         checksums[i] = formatChecksum(computeCrc32(bytes));
-        // The chunk's padding comes with its last view.
-        if (i + 1 == layout.views.size())
-            bytes.resize(chunks.binaryBytes - view.byteOffset, std::byte{0});
-        write(chunks.binaryOffset() + view.byteOffset, bytes);
     }
     const std::string front =
         makeFront(chunks, gltf::describeGlb(scene, extension, layout, checksums));
-    write(0, std::as_bytes(std::span(front)));
+    write(std::as_bytes(std::span(front)));
+    for (const gltf::ViewLayout& view : layout.views) {
+        makeView(view);
+        write(bytes);
+    }
+    bytes.assign(chunks.binaryBytes - layout.byteLength, std::byte{0});
+    write(bytes);
 }
 
 }  // namespace
@@ -113,9 +117,8 @@ std::string formatChecksum(std::uint32_t crc32) {
 
 std::vector<std::byte> encodeGlb(const Scene& scene, const GlbExtension* extension) {
     std::vector<std::byte> file;
-    makeGlb(scene, extension, [&](std::size_t offset, std::span<const std::byte> bytes) {
-        file.resize(std::max(file.size(), offset + bytes.size()));
-        std::copy(bytes.begin(), bytes.end(), file.begin() + static_cast<std::ptrdiff_t>(offset));
+    makeGlb(scene, extension, [&](std::span<const std::byte> bytes) {
+        file.insert(file.end(), bytes.begin(), bytes.end());
     });
     return file;
 }
@@ -123,9 +126,7 @@ std::vector<std::byte> encodeGlb(const Scene& scene, const GlbExtension* extensi
 void writeGlb(const std::filesystem::path& path, const Scene& scene,
               const GlbExtension* extension) {
     AtomicFile file(path);
-    makeGlb(scene, extension, [&](std::size_t offset, std::span<const std::byte> bytes) {
-        file.write(offset, bytes);
-    });
+    makeGlb(scene, extension, [&](std::span<const std::byte> bytes) { file.append(bytes); });
     file.commit();
 }
 
