@@ -20,23 +20,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMinSampleCount = 16;
-constexpr int kMaxSampleCount = 65536;
-
 double secondsSince(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-void requireInRange(int value, int low, int high, const std::string& name) {
-    if (value >= low && value <= high) return;
-    throw Error(ErrorCode::invalidOption, name + " must lie between " + std::to_string(low) +
-                                              " and " + std::to_string(high) + ", not " +
-                                              std::to_string(value));
-}
-
 void checkOptions(const BakeOptions& options) {
-    requireInRange(options.bandCount, 1, kMaxBandCount, "the number of bands");
-    requireInRange(options.sampleCount, kMinSampleCount, kMaxSampleCount, "the number of samples");
+    checkGatherRanges(options.bandCount, options.sampleCount);
     if (options.bounceCount < 0 && options.bounceCount != kInfiniteBounces)
         throw Error(ErrorCode::invalidOption, "the number of bounces must not be negative");
     if (options.isa && *options.isa > detectIsa())

@@ -6,8 +6,11 @@
 #include <array>
 #include <bit>
 #include <chrono>
+#include <string>
 
+#include "prt/base/error.h"
 #include "prt/base/random.h"
+#include "prt/basis/sh.h"
 #include "prt/scene/surface_color.h"
 
 namespace prt {
@@ -46,7 +49,21 @@ std::vector<std::optional<Vec3f>> findUniformAlbedos(const Scene& scene) {
     return albedos;
 }
 
+void requireInRange(int value, int low, int high, const std::string& name) {
+    if (value >= low && value <= high) return;
+    throw Error(ErrorCode::invalidOption, name + " must lie between " + std::to_string(low) +
+                                              " and " + std::to_string(high) + ", not " +
+                                              std::to_string(value));
+}
+
 }  // namespace
+
+void checkGatherRanges(int bandCount, int sampleCount) {
+    constexpr int kMinSampleCount = 16;
+    constexpr int kMaxSampleCount = 65536;
+    requireInRange(bandCount, 1, kMaxBandCount, "the number of bands");
+    requireInRange(sampleCount, kMinSampleCount, kMaxSampleCount, "the number of samples");
+}
 
 GatherCounts& GatherCounts::operator+=(const GatherCounts& other) {
     rayCount += other.rayCount;

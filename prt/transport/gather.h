@@ -30,6 +30,11 @@ struct GatherOptions {
     bool keepHits = true;  ///< for bounces
 };
 
+/// Checks what users ask of a gather: 1 … kMaxBandCount bands, 16 … 65536 rays a receiver.
+///
+/// @throws Error  invalidOption
+void checkGatherRanges(int bandCount, int sampleCount);
+
 /// What all receivers' gathers share.
 struct GatherScene {
     const Scene& scene;

@@ -120,6 +120,7 @@ double openTransferNorm(int bandCount) {
 
 InterpolationError measureInterpolationError(const Scene& scene, const TransferField& field,
                                              const InterpolationErrorOptions& options) {
+    checkGatherRanges(field.bandCount, options.sampleCount);
     PRT_ASSERT(field.findLayer(Transport::shadowed), "there is shadowed transfer to interpolate");
     const RayScene rays(scene, {{}, options.threadCount});
     const std::vector<SurfacePoint> points = spreadPoints(scene, options);

@@ -27,7 +27,7 @@ struct InterpolationError {
 /// the surface and compared with what is interpolated there between the corners of the triangle.
 ///
 /// @param field   baked from the scene, with a shadowed layer
-/// @throws Error  cancelled
+/// @throws Error  invalidOption, cancelled
 InterpolationError measureInterpolationError(const Scene& scene, const TransferField& field,
                                              const InterpolationErrorOptions& options = {});
 

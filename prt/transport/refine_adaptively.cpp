@@ -245,6 +245,7 @@ float defaultMinEdgeLength(const Scene& scene) {
 
 Scene refineAdaptively(const Scene& scene, const AdaptiveRefineOptions& options,
                        AdaptiveRefineStats* stats) {
+    checkGatherRanges(options.bandCount, options.sampleCount);
     if (!(options.maxError > 0.0f))
         throw Error(ErrorCode::invalidOption, "the error to refine to must be positive");
     if (!(options.minEdgeLength >= 0.0f))

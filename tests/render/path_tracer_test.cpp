@@ -19,6 +19,7 @@ namespace {
 using test::assembleScene;
 using test::makePatch;
 using test::makeQuad;
+using test::makeRoomScene;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kSigmas = 4.0;
@@ -186,15 +187,6 @@ TEST(PathTracer, NoLightEntersAClosedBox) {
         for (const Vec3d& radiance : estimate.mean)
             EXPECT_EQ(radiance, Vec3d(0.0));
     }
-}
-
-/// A room with one wall missing, and a ball in it.
-Scene makeRoomScene() {
-    return assembleScene(
-        {{makeQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}), {0.8f, 0.8f, 0.8f}},
-         {makeQuad({-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}), {0.1f, 0.7f, 0.2f}},
-         {makeQuad({-1, -1, 0}, {-1, 1, 0}, {-1, 1, 2}, {-1, -1, 2}), {0.7f, 0.1f, 0.1f}},
-         {makeSphere({0, 0, 0.5f}, 0.5f, 16)}});
 }
 
 /// The mean of z over all origins and channels, which sampling noise alone keeps within some

@@ -5,6 +5,7 @@
 
 #include "prt/math/transform.h"
 #include "prt/scene/normals.h"
+#include "prt/scene/procedural.h"
 #include "prt/scene/scene.h"
 
 namespace prt::test {
@@ -49,6 +50,15 @@ inline Mesh makePatch(const Vec3f& center, const Vec3f& normal, float size) {
     mesh.normals.assign(3, normal);
     mesh.indices = {0, 1, 2};
     return mesh;
+}
+
+/// A room with one wall missing, and a ball in it.
+inline Scene makeRoomScene() {
+    return assembleScene(
+        {{makeQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}), {0.8f, 0.8f, 0.8f}},
+         {makeQuad({-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}), {0.1f, 0.7f, 0.2f}},
+         {makeQuad({-1, -1, 0}, {-1, 1, 0}, {-1, 1, 2}, {-1, -1, 2}), {0.7f, 0.1f, 0.1f}},
+         {makeSphere({0, 0, 0.5f}, 0.5f, 16)}});
 }
 
 /// Rotates, scales and moves a whole scene.

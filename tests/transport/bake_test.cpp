@@ -17,6 +17,7 @@ namespace {
 using test::assembleScene;
 using test::makePatch;
 using test::makeQuad;
+using test::makeRoomScene;
 using test::transformScene;
 
 constexpr Vec3f kUp(0.0f, 0.0f, 1.0f);
@@ -25,15 +26,6 @@ constexpr Vec3f kUp(0.0f, 0.0f, 1.0f);
 constexpr double kQmcTolerance = 4e-3;
 // Exit radiance of unit radiance from everywhere: L_00 = √(4π).
 const double kWhiteSky = std::sqrt(4.0 * std::numbers::pi);
-
-/// A room with one wall missing, and a ball in it.
-Scene makeRoomScene() {
-    return assembleScene(
-        {{makeQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}), {0.8f, 0.8f, 0.8f}},
-         {makeQuad({-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}), {0.1f, 0.7f, 0.2f}},
-         {makeQuad({-1, -1, 0}, {-1, 1, 0}, {-1, 1, 2}, {-1, -1, 2}), {0.7f, 0.1f, 0.1f}},
-         {makeSphere({0, 0, 0.5f}, 0.5f, 16)}});
-}
 
 BakeOptions quickOptions(Transport transport) {
     BakeOptions options;

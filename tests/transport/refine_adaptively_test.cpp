@@ -113,6 +113,9 @@ TEST(RefineAdaptively, RefusesErrorsAndLengthsThatMakeNoSense) {
     options = {};
     options.minEdgeLength = -1.0f;
     EXPECT_THROW(refineAdaptively(makeBoxOnFloor(), options), Error);
+    options = {};
+    options.sampleCount = -1;
+    EXPECT_THROW(refineAdaptively(makeBoxOnFloor(), options), Error);
 }
 
 TEST(InterpolationError, OfAnOpenPlaneIsNoise) {
