@@ -181,10 +181,11 @@ double measureParts(const Scene& scene) {
 
     // Bounce on what the rays have hit.
     constexpr int kBounceCount = 8;
-    std::vector<float> total(3 * direct.size());
+    CoefficientTable total(receiverCount, 3 * n, sizeof(float));
     const ProgressCallback none;
     const double bounceBegin = threadSeconds();
-    addBounces(matrix, direct, kernels, {kBandCount, kBounceCount, 1, none}, total);
+    addBounces(matrix, {makeTable(n, direct)}, kernels,
+               {.bounceCount = kBounceCount, .threadCount = 1, .progress = none}, total);
     const double bounceSeconds = (threadSeconds() - bounceBegin) / kBounceCount;
 
     const double bareSeconds = timings.occludedSeconds + timings.closestSeconds;

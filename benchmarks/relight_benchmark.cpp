@@ -111,7 +111,10 @@ CompressedTransfer makeTransfer(TransferEncoding encoding, int bandCount, int ch
     }
     // A number of moderate size in every encoding.
     constexpr std::byte kPattern{0x3c};
-    layer.data.assign(kReceiverCount * rowCount * bytesPerCoefficient(encoding), kPattern);
+    layer.data = CoefficientTable(kReceiverCount, rowCount, bytesPerCoefficient(encoding));
+    const std::vector<std::byte> panel(layer.data.panel(0).size(), kPattern);
+    for (std::size_t i = 0; i < layer.data.panelCount(); ++i)
+        layer.data.writePanel(i, 0, panel);
     transfer.layers.push_back(std::move(layer));
     return transfer;
 }

@@ -119,11 +119,14 @@ void addRunOptions(CLI::App& command, BakeArguments& arguments) {
     addIntegerOption(command, "--threads", bake.threadCount, 0, 4096, "0 for one a core");
     command
         .add_option("--memory", bake.memoryBytes,
-                    "for the hits of rays, beyond it they go to disk; K M G T")
+                    "memory to use in all, more goes to disk; K M G T")
         ->transform(CLI::AsSizeValue(false).description(""))
         ->check(CLI::PositiveNumber.description(""))
         ->type_name("BYTES")
-        ->default_str("8G");
+        ->default_str("by the scene");
+    command.add_option("--scratch", bake.scratchFolder, "folder for what goes to disk")
+        ->type_name("DIR")
+        ->default_str("the system's");
     addVertexLimit(command, arguments.limits);
     addPixelLimit(command, arguments.limits);
     command.add_option("--stats", arguments.stats, "write seconds, rays and memory as JSON")

@@ -15,6 +15,7 @@
 #include "apps/prt/memory.h"
 #include "apps/prt/stage_log.h"
 #include "apps/prt/text.h"
+#include "prt/asset/asset_header.h"
 #include "prt/base/error.h"
 #include "prt/base/file.h"
 #include "prt/compress/compress_transfer.h"
@@ -100,9 +101,32 @@ Scene prepareScene(BakeArguments& arguments, StageLog& log) {
     return refineWhereNeeded(std::move(refined), arguments, log);
 }
 
-/// Says what the bake will take. @throws Error  outOfMemory if that is more than there is
-void tellForecast(const BakeForecast& forecast, const Stopwatch& build, StageLog& log) {
-    const std::uint64_t memoryBytes = std::max(peakBytes(), residentBytes() + forecast.memoryBytes);
+/// Checks that a binary glTF can hold the transfer that will be baked, before it is.
+void checkAssetSize(const Scene& scene, const BakeArguments& arguments) {
+    constexpr std::uint64_t kMaxBytes = UINT32_MAX;
+    std::uint64_t vertexBytes = 0;
+    for (const int channelCount : {1, 3}) {
+        if (channelCount == 3 && arguments.bake.transport != Transport::interreflected) continue;
+        const CompressedLayer layer{.channelCount = channelCount, .encoding = arguments.encoding};
+        vertexBytes += countAttributes(arguments.bake.bandCount, layer) *
+                       kCoefficientsPerAttribute * bytesPerCoefficient(arguments.encoding);
+    }
+    const std::uint64_t bytes = scene.vertexCount() * vertexBytes;
+    if (bytes <= kMaxBytes) return;
+    throw Error(
+        ErrorCode::limitExceeded,
+        fmt::format("would need {} of transfer, more than the {} that a binary glTF can have",
+                    formatBytes(bytes), formatBytes(kMaxBytes)),
+        arguments.output, "use fewer bands, --method u16 or u8, or split the scene");
+}
+
+/// Says what the bake will take.
+///
+/// @param allowedBytes  0: not said
+/// @throws Error  outOfMemory if that is more than there is, or more than is allowed
+void tellForecast(const BakeForecast& forecast, std::uint64_t allowedBytes, const Stopwatch& build,
+                  StageLog& log) {
+    const std::uint64_t memoryBytes = std::max<std::uint64_t>(peakBytes(), forecast.memoryBytes);
     std::string summary = fmt::format(
         "{}; to come: {}, {} of memory", formatCount(forecast.receiverCount, "receiver"),
         formatQuantity(static_cast<double>(forecast.rayCount), "rays"), formatBytes(memoryBytes));
@@ -111,11 +135,16 @@ void tellForecast(const BakeForecast& forecast, const Stopwatch& build, StageLog
     if (forecast.unitCount > 0)
         summary += fmt::format(", {}", formatCount(forecast.unitCount, "unit"));
     log.finishStage("build", build.seconds(), summary);
+    if (allowedBytes > 0 && forecast.memoryBytes > allowedBytes)
+        throw Error(ErrorCode::outOfMemory,
+                    fmt::format("the bake cannot do with {} of memory, it needs {}",
+                                formatBytes(allowedBytes), formatBytes(forecast.memoryBytes)),
+                    {}, "allow more with --memory");
     if (memoryBytes <= grantedBytes()) return;
     throw Error(ErrorCode::outOfMemory,
                 fmt::format("the bake needs {} of memory, and there are {}",
                             formatBytes(memoryBytes), formatBytes(grantedBytes())),
-                {}, "keep more hits on disk with a smaller --memory, or ask for fewer bands");
+                {}, "keep more of it on disk with a smaller --memory");
 }
 
 /// Runs a bake that an interrupt of the user stops in good order.
@@ -128,7 +157,7 @@ auto runInterruptibly(const BakeArguments& arguments, StageLog& log, Bake bake) 
     options.progress = log.callback();
     options.announce = [&](const BakeForecast& forecast) {
         untilTheCallback.emplace();
-        tellForecast(forecast, build, log);
+        tellForecast(forecast, arguments.bake.memoryBytes, build, log);
     };
     options.checkpoint.callerSettings = callerSettings(arguments);
     const std::string folder = options.checkpoint.folder.string();
@@ -162,16 +191,17 @@ TransferField bakeScene(const Scene& scene, const BakeArguments& arguments, Bake
 std::size_t countBytesPerReceiver(const CompressedTransfer& transfer) {
     std::size_t bytes = 0;
     for (const CompressedLayer& layer : transfer.layers)
-        bytes += layer.data.size();
+        bytes += layer.data.byteCount();
     return bytes / transfer.receiverCount;
 }
 
 /// Bakes, and keeps no more of it than the asset needs.
 CompressedTransfer bakeCompressed(const Scene& scene, const BakeArguments& arguments,
                                   BakeStats& stats, StageSeconds& seconds, StageLog& log) {
-    const TransferField field = bakeScene(scene, arguments, stats, log);
+    TransferField field = bakeScene(scene, arguments, stats, log);
     const Stopwatch watch;
-    CompressedTransfer transfer = compressTransfer(field, {.encoding = arguments.encoding});
+    CompressedTransfer transfer =
+        compressTransfer(std::move(field), {.encoding = arguments.encoding});
     seconds.compress = watch.seconds();
     log.finishStage("compress", seconds.compress,
                     fmt::format("{}, {} a vertex", methodName(arguments.encoding),
@@ -210,6 +240,7 @@ void bakeToAsset(BakeArguments arguments) {
     stopIfInterrupted();
 
     const Scene scene = prepareScene(arguments, log);
+    checkAssetSize(scene, arguments);
     seconds.load = total.seconds();
 
     BakeStats stats;

@@ -111,7 +111,7 @@ class AssetComparison {
                 .vertexCount = asset_.scene.vertexCount(),
                 .triangleCount = asset_.scene.triangleCount(),
                 .assetBytes = std::filesystem::file_size(arguments_.asset),
-                .bytesPerVertex = layer ? layer->data.size() / receivers : 0,
+                .bytesPerVertex = layer ? layer->data.byteCount() / receivers : 0,
                 .transport = transport_,
                 .referenceSamples = referenceOptions_.samplesPerRay *
                                     referenceOptions_.view.samplesPerAxis *

@@ -21,7 +21,7 @@ struct InfoArguments {
 };
 
 std::size_t bytesPerVertex(const CompressedTransfer& transfer, const CompressedLayer& layer) {
-    return layer.data.size() / std::max<std::size_t>(transfer.receiverCount, 1);
+    return layer.data.byteCount() / std::max<std::size_t>(transfer.receiverCount, 1);
 }
 
 void printRow(std::string_view name, const std::string& value) {
@@ -61,7 +61,7 @@ void printTransfer(const CompressedTransfer& transfer) {
     for (const CompressedLayer& layer : transfer.layers)
         fmt::print("{:<16} {:>8} {:>10} {:>14} {:>10}\n", transportName(layer.transport),
                    layer.channelCount, encodingName(layer.encoding),
-                   bytesPerVertex(transfer, layer), formatBytes(layer.data.size()));
+                   bytesPerVertex(transfer, layer), formatBytes(layer.data.byteCount()));
 }
 
 void printTable(const std::string& path, const Asset& asset) {
@@ -78,7 +78,7 @@ nlohmann::ordered_json describeLayers(const CompressedTransfer& transfer) {
                           {"channels", layer.channelCount},
                           {"encoding", encodingName(layer.encoding)},
                           {"bytes_per_vertex", bytesPerVertex(transfer, layer)},
-                          {"bytes", layer.data.size()}});
+                          {"bytes", layer.data.byteCount()}});
     return layers;
 }
 

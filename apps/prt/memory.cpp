@@ -10,10 +10,6 @@
 namespace prt::cli {
 namespace {
 
-std::uint64_t pageBytes() {
-    return static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
 /// The limit of a control group, which may say "max" for none.
 std::uint64_t readGroupLimit(const std::string& folder) {
     std::uint64_t bytes = 0;
@@ -37,13 +33,6 @@ std::uint64_t groupLimit() {
 
 }  // namespace
 
-std::uint64_t residentBytes() {
-    std::uint64_t totalPages = 0;
-    std::uint64_t residentPages = 0;
-    std::ifstream("/proc/self/statm") >> totalPages >> residentPages;
-    return residentPages * pageBytes();
-}
-
 std::uint64_t peakBytes() {
     rusage usage = {};
     ::getrusage(RUSAGE_SELF, &usage);
@@ -53,8 +42,8 @@ std::uint64_t peakBytes() {
 std::uint64_t grantedBytes() {
     rlimit addressSpace = {};
     ::getrlimit(RLIMIT_AS, &addressSpace);
-    const std::uint64_t machine =
-        static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * pageBytes();
+    const std::uint64_t machine = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                                  static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
     return std::min({machine, static_cast<std::uint64_t>(addressSpace.rlim_cur), groupLimit()});
 }
 

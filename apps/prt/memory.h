@@ -4,8 +4,7 @@
 
 namespace prt::cli {
 
-/// Memory that this process holds now, and the most it has held.
-std::uint64_t residentBytes();
+/// The most memory that this process has held.
 std::uint64_t peakBytes();
 
 /// Memory that this process can have at most: of the machine, its control group and its limits.

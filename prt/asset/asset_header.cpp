@@ -179,16 +179,11 @@ std::string attributeSemantic(std::size_t index) {
 }
 
 AccessorInfo attributeInfo(const CompressedLayer& layer, std::size_t vertexCount) {
-    AccessorInfo info{vertexCount, kCoefficientsPerAttribute};
+    AccessorInfo info{vertexCount, static_cast<int>(kCoefficientsPerAttribute)};
     if (layer.encoding == TransferEncoding::unorm16) info.type = ComponentType::uint16;
     if (layer.encoding == TransferEncoding::unorm8) info.type = ComponentType::uint8;
     info.normalized = layer.encoding != TransferEncoding::float32;
     return info;
-}
-
-std::size_t layerRowBytes(int bandCount, const CompressedLayer& layer) {
-    return coefficientsPerReceiver(bandCount, layer.channelCount) *
-           bytesPerCoefficient(layer.encoding);
 }
 
 std::size_t countAttributes(int bandCount, const CompressedLayer& layer) {

@@ -27,7 +27,7 @@ struct AssetHeader {
     std::vector<std::string> checksums;   ///< one a buffer view
 };
 
-inline constexpr int kCoefficientsPerAttribute = 4;
+inline constexpr std::size_t kCoefficientsPerAttribute = CoefficientTable::kPanelWidth;
 
 /// No stored coefficient is larger: it is beyond any that reflectances up to 1 can give, 1.23
 /// (docs/format.md), and far from where sums overflow.
@@ -38,9 +38,6 @@ std::string attributeSemantic(std::size_t index);
 
 /// The form of each attribute of a layer.
 AccessorInfo attributeInfo(const CompressedLayer& layer, std::size_t vertexCount);
-
-/// The bytes that a layer holds for each receiver.
-std::size_t layerRowBytes(int bandCount, const CompressedLayer& layer);
 
 /// How many attributes a layer takes: its coefficients are padded to a multiple of four.
 std::size_t countAttributes(int bandCount, const CompressedLayer& layer);

@@ -55,7 +55,7 @@ LayerCounts countDoubts(std::span<const float> values, int channelCount,
 
 void reportLayer(const Asset& asset, const CompressedLayer& layer,
                  std::vector<std::string>& problems) {
-    const std::vector<float> values = expandLayer(asset.transfer, layer);
+    const std::vector<float> values = expandLayer(layer);
     const LayerCounts counts =
         countDoubts(values, layer.channelCount, coefficientBounds(asset.transfer.bandCount));
     const std::string ofVertices =

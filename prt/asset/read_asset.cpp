@@ -107,46 +107,36 @@ void checkGeometry(const BoundAttributes& attributes, const Mesh& mesh) {
     }
 }
 
-/// Copies the coefficients [4·part, 4·part + 4) of each vertex to its row;
-/// those beyond the last must be zero.
-void placeAttribute(std::span<const std::byte> values, std::size_t elementBytes, std::size_t part,
-                    std::size_t rowBytes, std::span<std::byte> rows) {
-    const std::size_t begin = part * elementBytes;
-    const std::size_t usedBytes = std::min(elementBytes, rowBytes - begin);
-    for (std::size_t source = 0, row = 0; source < values.size();
-         source += elementBytes, row += rowBytes) {
-        const std::span<const std::byte> element = values.subspan(source, elementBytes);
-        std::memcpy(rows.data() + row + begin, element.data(), usedBytes);
-        const std::span<const std::byte> padding = element.subspan(usedBytes);
-        if (std::any_of(padding.begin(), padding.end(),
-                        [](std::byte b) { return b != std::byte{0}; }))
-            reject("holds a number other than 0 beyond the last coefficient");
-    }
+/// Demands that each vertex has zeros beyond its last coefficient.
+void checkPadding(const CoefficientTable& data) {
+    const std::size_t width = kCoefficientsPerAttribute * data.elementBytes();
+    const std::size_t last = data.panelCount() - 1;
+    const std::size_t usedBytes = data.columnCount() * data.elementBytes() - last * width;
+    const std::span<const std::byte> panel = data.panel(last);
+    for (std::size_t begin = 0; begin < panel.size(); begin += width)
+        for (const std::byte b : panel.subspan(begin + usedBytes, width - usedBytes))
+            if (b != std::byte{0})
+                reject("holds a number other than 0 beyond the last coefficient");
 }
 
 /// Demands that floats are finite and of a size that transfer can have;
 /// quantised ones are so by their ranges.
 void checkCoefficients(const CompressedLayer& layer) {
     if (layer.encoding != TransferEncoding::float32) return;
-    for (std::size_t offset = 0; offset < layer.data.size(); offset += sizeof(float)) {
-        float value = 0.0f;
-        std::memcpy(&value, layer.data.data() + offset, sizeof(value));
-        if (!(std::abs(value) <= kMaxCoefficient))
-            reject("holds a coefficient beyond ±" +
-                   std::to_string(static_cast<int>(kMaxCoefficient)));
-    }
+    for (std::size_t part = 0; part < layer.data.panelCount(); ++part)
+        for (const float value : floatPanel(layer.data, part))
+            if (!(std::abs(value) <= kMaxCoefficient))
+                reject("holds a coefficient beyond ±" +
+                       std::to_string(static_cast<int>(kMaxCoefficient)));
 }
 
-/// Reads the rows of one layer for the vertices of one mesh.
-void readRows(const BoundAttributes& attributes, const AttributeRange& range, std::size_t rowBytes,
-              const CompressedLayer& layer, std::span<std::byte> rows) {
-    const AccessorInfo info = attributeInfo(layer, rows.size() / rowBytes);
-    const std::size_t elementBytes =
-        kCoefficientsPerAttribute * bytesPerCoefficient(layer.encoding);
-    for (std::size_t part = 0; part < range.count; ++part) {
-        const std::string semantic = attributeSemantic(range.first + part);
-        placeAttribute(attributes.read(semantic, info), elementBytes, part, rowBytes, rows);
-    }
+/// Reads the rows of a layer that belong to a mesh, whose first vertex has this number.
+void readRows(const BoundAttributes& attributes, const AttributeRange& range,
+              std::size_t firstVertex, std::size_t vertexCount, CompressedLayer& layer) {
+    const AccessorInfo info = attributeInfo(layer, vertexCount);
+    for (std::size_t part = 0; part < range.count; ++part)
+        layer.data.writePanel(part, firstVertex,
+                              attributes.read(attributeSemantic(range.first + part), info));
 }
 
 /// Makes room for all layers, no more than the file has bytes for.
@@ -155,11 +145,15 @@ void allocateLayers(const GltfDocument& document, CompressedTransfer& transfer) 
     for (std::size_t view = 0; view < document.bufferViewCount(); ++view)
         bytesLeft += document.bufferViewBytes(view).size();
     for (CompressedLayer& layer : transfer.layers) {
-        const std::size_t rowBytes = layerRowBytes(transfer.bandCount, layer);
-        if (transfer.receiverCount > bytesLeft / rowBytes)
+        const std::size_t coefficientBytes = bytesPerCoefficient(layer.encoding);
+        const std::size_t vertexBytes = countAttributes(transfer.bandCount, layer) *
+                                        kCoefficientsPerAttribute * coefficientBytes;
+        if (transfer.receiverCount > bytesLeft / vertexBytes)
             reject("has more vertices than coefficients");
-        layer.data.resize(transfer.receiverCount * rowBytes);
-        bytesLeft -= layer.data.size();
+        bytesLeft -= transfer.receiverCount * vertexBytes;
+        layer.data = CoefficientTable(
+            transfer.receiverCount, coefficientsPerReceiver(transfer.bandCount, layer.channelCount),
+            coefficientBytes);
     }
 }
 
@@ -178,16 +172,14 @@ CompressedTransfer readTransfer(const GltfDocument& document, const FlattenedGlt
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
         const BoundAttributes attributes(document, flattened.primitiveOfMesh[mesh]);
         checkGeometry(attributes, scene.meshes[mesh]);
-        for (std::size_t i = 0; i < transfer.layers.size(); ++i) {
-            CompressedLayer& layer = transfer.layers[i];
-            const std::size_t rowBytes = layerRowBytes(transfer.bandCount, layer);
-            const std::size_t meshBytes = scene.meshes[mesh].vertexCount() * rowBytes;
-            readRows(attributes, header.ranges[i], rowBytes, layer,
-                     std::span(layer.data).subspan(offsets[mesh] * rowBytes, meshBytes));
-        }
+        for (std::size_t i = 0; i < transfer.layers.size(); ++i)
+            readRows(attributes, header.ranges[i], offsets[mesh], scene.meshes[mesh].vertexCount(),
+                     transfer.layers[i]);
     }
-    for (const CompressedLayer& layer : transfer.layers)
+    for (const CompressedLayer& layer : transfer.layers) {
+        checkPadding(layer.data);
         checkCoefficients(layer);
+    }
     return transfer;
 }
 

@@ -14,18 +14,15 @@ namespace {
 /// The coefficients of one mesh's vertices: a part of the scene-wide list of receivers.
 using Receivers = std::span<const std::uint32_t>;
 
-/// Copies the coefficients [4·part, 4·part + 4) of each vertex's receiver;
-/// those beyond the last stay zero.
-void copyAttribute(const CompressedTransfer& transfer, const CompressedLayer& layer,
-                   std::size_t part, Receivers receivers, std::span<std::byte> values) {
-    const std::size_t coefficientBytes = bytesPerCoefficient(layer.encoding);
-    const std::size_t rowBytes = layerRowBytes(transfer.bandCount, layer);
-    const std::size_t elementBytes = kCoefficientsPerAttribute * coefficientBytes;
-    const std::size_t begin = part * elementBytes;
-    const std::size_t copiedBytes = std::min(elementBytes, rowBytes - begin);
+/// Copies the coefficients [4·part, 4·part + 4) of each vertex's receiver.
+void copyAttribute(const CoefficientTable& data, std::size_t part, Receivers receivers,
+                   std::span<std::byte> values) {
+    const std::span<const std::byte> panel = data.panel(part);
+    const std::size_t elementBytes = kCoefficientsPerAttribute * data.elementBytes();
     for (std::size_t vertex = 0; vertex < receivers.size(); ++vertex)
         std::memcpy(values.data() + vertex * elementBytes,
-                    layer.data.data() + receivers[vertex] * rowBytes + begin, copiedBytes);
+                    panel.data() + receivers[vertex] * elementBytes, elementBytes);
+    data.releaseMemory();
 }
 
 std::vector<GlbAttribute> makeAttributes(const CompressedTransfer& transfer, Receivers receivers) {
@@ -33,8 +30,8 @@ std::vector<GlbAttribute> makeAttributes(const CompressedTransfer& transfer, Rec
     for (const CompressedLayer& layer : transfer.layers) {
         const AccessorInfo info = attributeInfo(layer, receivers.size());
         for (std::size_t part = 0; part < countAttributes(transfer.bandCount, layer); ++part) {
-            const auto write = [&transfer, &layer, part, receivers](std::span<std::byte> values) {
-                copyAttribute(transfer, layer, part, receivers, values);
+            const auto write = [&layer, part, receivers](std::span<std::byte> values) {
+                copyAttribute(layer.data, part, receivers, values);
             };
             attributes.push_back({attributeSemantic(attributes.size()), info, write});
         }
@@ -50,9 +47,11 @@ void checkTransfer(const Scene& scene, const CompressedTransfer& transfer) {
                     [&](std::uint32_t receiver) { return receiver < transfer.receiverCount; }),
         "each vertex's receiver is one of the transfer");
     for (const CompressedLayer& layer : transfer.layers)
-        PRT_ASSERT(
-            layer.data.size() == transfer.receiverCount * layerRowBytes(transfer.bandCount, layer),
-            "each layer has all coefficients of all receivers");
+        PRT_ASSERT(layer.data.rowCount() == transfer.receiverCount &&
+                       layer.data.columnCount() ==
+                           coefficientsPerReceiver(transfer.bandCount, layer.channelCount) &&
+                       layer.data.elementBytes() == bytesPerCoefficient(layer.encoding),
+                   "each layer has all coefficients of all receivers");
 }
 
 /// Meshes without a triangle are not written.

@@ -13,7 +13,8 @@ struct CompressOptions {
 ///
 /// The error of a coefficient is at most half a step: its range / 131070 for unorm16, / 510 for
 /// unorm8. float32 stores the numbers as they are.
-CompressedTransfer compressTransfer(const TransferField& field,
-                                    const CompressOptions& options = {});
+///
+/// @param field  its layers go as they are compressed: whoever needs it still passes a copy
+CompressedTransfer compressTransfer(TransferField field, const CompressOptions& options = {});
 
 }  // namespace prt

@@ -6,7 +6,6 @@
 #include <hwy/aligned_allocator.h>
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -57,8 +56,7 @@ void packBlocks(const CompressedLayer& layer, const TransferBlocks& shape,
     const std::size_t rowCount = shape.channelCount * shape.coefficientCount;
     std::vector<Stored> receiver(rowCount);
     for (std::size_t r = 0; r < receiverCount; ++r) {
-        const std::size_t bytes = rowCount * sizeof(Stored);
-        std::memcpy(receiver.data(), &layer.data[r * bytes], bytes);
+        layer.data.readRow(r, std::span(receiver));
         Stored* const lane =
             blocks + r / kRelightBlockSize * rowCount * kRelightBlockSize + r % kRelightBlockSize;
         for (std::size_t channel = 0; channel < shape.channelCount; ++channel) {
@@ -88,7 +86,9 @@ struct Relighter::Blocks {
         const std::size_t rowBytes = bytesPerCoefficient(layer.encoding);
         PRT_ASSERT(bandCount >= 1 && bandCount <= kMaxBandCount, "a band count of the kernels");
         PRT_ASSERT(layer.channelCount == 1 || layer.channelCount == 3, "grey or coloured transfer");
-        PRT_ASSERT(layer.data.size() == receiverCount * rowCount * rowBytes, "a vector a receiver");
+        PRT_ASSERT(layer.data.rowCount() == receiverCount && layer.data.columnCount() == rowCount &&
+                       layer.data.elementBytes() == bytesPerCoefficient(layer.encoding),
+                   "a vector a receiver");
         ranges = storedRanges(layer, rowCount);
 
         // Fill the last block up with zeros, then copy what there is.

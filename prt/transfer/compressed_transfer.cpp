@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <span>
 
 #include "prt/base/assert.h"
@@ -17,18 +16,22 @@ constexpr std::array<std::size_t, 3> kEncodingBytes = {4, 2, 1};
 /// Decodes the integers of every receiver; in double, so that each result is the
 /// float nearest to what is meant.
 template <class Integer>
-void expandIntegers(const CompressedLayer& layer, double maxInteger, std::span<float> values) {
-    const std::size_t rowLength = layer.scale.size();
-    const std::byte* source = layer.data.data();
-    for (std::size_t row = 0; row < values.size(); row += rowLength) {
-        for (std::size_t column = 0; column < rowLength; ++column, source += sizeof(Integer)) {
-            Integer integer = 0;
-            std::memcpy(&integer, source, sizeof(Integer));
-            const double fraction = static_cast<double>(integer) / maxInteger;
-            values[row + column] =
-                static_cast<float>(layer.bias[column] + layer.scale[column] * fraction);
+std::vector<float> expandIntegers(const CompressedLayer& layer, double maxInteger) {
+    const std::size_t rowLength = layer.data.columnCount();
+    PRT_ASSERT(layer.scale.size() == rowLength && layer.bias.size() == rowLength,
+               "each channel and coefficient has a scale and a bias");
+    std::vector<float> values;
+    values.reserve(layer.data.rowCount() * rowLength);
+    std::vector<Integer> row(rowLength);
+    for (std::size_t receiver = 0; receiver < layer.data.rowCount(); ++receiver) {
+        layer.data.readRow(receiver, std::span(row));
+        for (std::size_t column = 0; column < rowLength; ++column) {
+            const double fraction = static_cast<double>(row[column]) / maxInteger;
+            values.push_back(
+                static_cast<float>(layer.bias[column] + layer.scale[column] * fraction));
         }
     }
+    return values;
 }
 
 }  // namespace
@@ -54,23 +57,18 @@ const CompressedLayer* CompressedTransfer::findLayer(Transport transport) const 
     return found == layers.end() ? nullptr : &*found;
 }
 
-std::vector<float> expandLayer(const CompressedTransfer& transfer, const CompressedLayer& layer) {
-    const std::size_t rowLength = coefficientsPerReceiver(transfer.bandCount, layer.channelCount);
-    std::vector<float> values(transfer.receiverCount * rowLength);
-    PRT_ASSERT(layer.data.size() == values.size() * bytesPerCoefficient(layer.encoding),
-               "the layer has all coefficients of all receivers");
-    if (layer.encoding == TransferEncoding::float32) {
-        if (!values.empty()) std::memcpy(values.data(), layer.data.data(), layer.data.size());
-        return values;
+std::vector<float> expandLayer(const CompressedLayer& layer) {
+    PRT_ASSERT(layer.data.elementBytes() == bytesPerCoefficient(layer.encoding),
+               "the numbers are stored as the layer says");
+    switch (layer.encoding) {
+        case TransferEncoding::unorm16:
+            return expandIntegers<std::uint16_t>(layer, 65535.0);
+        case TransferEncoding::unorm8:
+            return expandIntegers<std::uint8_t>(layer, 255.0);
+        case TransferEncoding::float32:
+            break;
     }
-
-    PRT_ASSERT(layer.scale.size() == rowLength && layer.bias.size() == rowLength,
-               "each channel and coefficient has a scale and a bias");
-    if (layer.encoding == TransferEncoding::unorm16)
-        expandIntegers<std::uint16_t>(layer, 65535.0, values);
-    else
-        expandIntegers<std::uint8_t>(layer, 255.0, values);
-    return values;
+    return copyRows<float>(layer.data);
 }
 
 }  // namespace prt

@@ -27,9 +27,9 @@ struct CompressedLayer {
     Transport transport = Transport::shadowed;
     int channelCount = 1;
     TransferEncoding encoding = TransferEncoding::float32;
-    std::vector<float> scale;     ///< [channel][coefficient]; empty for float32
-    std::vector<float> bias;      ///< [channel][coefficient]; empty for float32
-    std::vector<std::byte> data;  ///< [receiver][channel][coefficient], native byte order
+    std::vector<float> scale{};  ///< [channel][coefficient]; empty for float32
+    std::vector<float> bias{};   ///< [channel][coefficient]; empty for float32
+    CoefficientTable data{};     ///< of the stored numbers: a row is [channel][coefficient]
 };
 
 /// A TransferField as it is stored.
@@ -42,7 +42,7 @@ struct CompressedTransfer {
     const CompressedLayer* findLayer(Transport transport) const;
 };
 
-/// Decodes one layer to floats, [receiver][channel][coefficient].
-std::vector<float> expandLayer(const CompressedTransfer& transfer, const CompressedLayer& layer);
+/// Decodes a layer to floats, [receiver][channel][coefficient].
+std::vector<float> expandLayer(const CompressedLayer& layer);
 
 }  // namespace prt

@@ -37,15 +37,16 @@ std::size_t coefficientsPerReceiver(int bandCount, int channelCount) {
            static_cast<std::size_t>(shCoefficientCount(bandCount));
 }
 
-std::span<const float> transferVector(const TransferField& field, const TransferLayer& layer,
-                                      std::size_t receiver, int channel) {
+std::vector<float> transferVector(const TransferField& field, const TransferLayer& layer,
+                                  std::size_t receiver, int channel) {
     PRT_ASSERT(receiver < field.receiverCount, "the receiver is one of the field");
     PRT_ASSERT(channel >= 0 && channel < layer.channelCount, "the channel is one of the layer");
-    const std::size_t begin =
-        receiver * coefficientsPerReceiver(field.bandCount, layer.channelCount) +
-        coefficientsPerReceiver(field.bandCount, channel);
-    return std::span(layer.coefficients)
-        .subspan(begin, coefficientsPerReceiver(field.bandCount, 1));
+    std::vector<float> row(layer.coefficients.columnCount());
+    layer.coefficients.readRow(receiver, std::span(row));
+    const auto begin = row.begin() + static_cast<std::ptrdiff_t>(
+                                         coefficientsPerReceiver(field.bandCount, channel));
+    return {begin,
+            begin + static_cast<std::ptrdiff_t>(coefficientsPerReceiver(field.bandCount, 1))};
 }
 
 }  // namespace prt

@@ -3,9 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
+
+#include "prt/transfer/coefficient_table.h"
 
 namespace prt {
 
@@ -27,8 +28,8 @@ std::optional<Transport> parseTransport(std::string_view name);
 /// is albedo(x) Σ_i T_i L_i (C7).
 struct TransferLayer {
     Transport transport = Transport::shadowed;
-    int channelCount = 1;  ///< 1: the same for red, green and blue; 3: coloured by bounces
-    std::vector<float> coefficients;  ///< [receiver][channel][coefficient]
+    int channelCount = 1;           ///< 1: the same for red, green and blue; 3: coloured by bounces
+    CoefficientTable coefficients;  ///< of floats: a row is [channel][coefficient]
 };
 
 /// What a bake makes: the transfer of a scene's receivers.
@@ -47,7 +48,7 @@ struct TransferField {
 std::size_t coefficientsPerReceiver(int bandCount, int channelCount);
 
 /// The n² coefficients of one receiver and channel.
-std::span<const float> transferVector(const TransferField& field, const TransferLayer& layer,
-                                      std::size_t receiver, int channel);
+std::vector<float> transferVector(const TransferField& field, const TransferLayer& layer,
+                                  std::size_t receiver, int channel);
 
 }  // namespace prt

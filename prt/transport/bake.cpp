@@ -9,9 +9,9 @@
 #include "prt/base/error.h"
 #include "prt/basis/sh.h"
 #include "prt/parallel/parallel_for.h"
+#include "prt/transport/bake_plan.h"
 #include "prt/transport/bake_settings.h"
 #include "prt/transport/bounce.h"
-#include "prt/transport/forecast.h"
 #include "prt/transport/gather_pass.h"
 #include "prt/transport/unshadowed.h"
 
@@ -58,9 +58,11 @@ struct ReadyBake {
     GatherPass gather;
 };
 
-void announce(const ReadyBake& ready, const BakeOptions& options,
-              std::optional<UnitRange> units = {}) {
-    if (options.announce) options.announce(forecastBake(ready.scene, options, ready.isa, units));
+MemoryPlan announcePlan(const ReadyBake& ready, const BakeOptions& options,
+                        std::optional<UnitRange> units = {}) {
+    const BakePlan plan = planBake(ready.scene, options, ready.isa, units);
+    if (options.announce) options.announce(plan.forecast);
+    return plan.memory;
 }
 
 void reportGather(const GatheredLight& light, const BakeOptions& options, BakeStats& report) {
@@ -77,36 +79,31 @@ TransferField bakeRays(const Scene& scene, const BakeOptions& options, BakeStats
     const Clock::time_point buildBegin = Clock::now();
     ReadyBake ready(scene, options);
     report.buildSeconds = secondsSince(buildBegin);
-    announce(ready, options);
+    const MemoryPlan memory = announcePlan(ready, options);
 
     // Trace every ray, once.
-    GatheredLight light{0, {}, HitMatrix(options.memoryBytes, options.scratchFolder), {}};
+    GatheredLight light(ready.scene, options.bandCount, memory);
     ready.gather.gatherAll(light);
     reportGather(light, options, report);
     report.resumedUnitCount = ready.gather.resumedUnitCount();
     report.receiverCount = ready.receivers.fronts.size();
 
     TransferField field{options.bandCount, report.receiverCount, ready.receivers.frontOfVertex, {}};
-    const auto coefficientCount = static_cast<std::size_t>(shCoefficientCount(options.bandCount));
-    const std::size_t frontSize = field.receiverCount * coefficientCount;
-    field.layers.push_back(
-        {Transport::shadowed,
-         1,
-         {light.directTransfer.begin(),
-          light.directTransfer.begin() + static_cast<std::ptrdiff_t>(frontSize)}});
-
     // Let the light bounce.
     if (options.transport == Transport::interreflected) {
         const Clock::time_point bounceBegin = Clock::now();
-        TransferLayer layer{Transport::interreflected, 3, std::vector<float>(3 * frontSize)};
+        CoefficientTable total(field.receiverCount, coefficientsPerReceiver(options.bandCount, 3),
+                               sizeof(float), memory.tables);
         report.bounceCount =
-            addBounces(light.hits, light.directTransfer, selectGatherKernels(report.isa),
-                       {options.bandCount, options.bounceCount, options.threadCount,
+            addBounces(light.hits, light.direct, selectGatherKernels(report.isa),
+                       {options.bounceCount, options.threadCount, memory.blocksAtOnce,
                         options.progress, ready.checkpoint.get()},
-                       layer.coefficients);
-        field.layers.push_back(std::move(layer));
+                       total);
+        field.layers.push_back({Transport::interreflected, 3, std::move(total)});
         report.bounceSeconds = secondsSince(bounceBegin);
     }
+    field.layers.insert(field.layers.begin(),
+                        {Transport::shadowed, 1, std::move(light.direct.fronts)});
     if (ready.checkpoint) report.warnings = ready.checkpoint->warnings();
     return field;
 }
@@ -118,7 +115,7 @@ auto withinMemory(Work work) {
         return work();
     } catch (const std::bad_alloc&) {
         throw Error(ErrorCode::outOfMemory, "the bake needs more memory than there is", {},
-                    "allow the hits of rays less, ask for fewer bands, or use a smaller scene");
+                    "allow it less, so that more goes to disk, or use a smaller scene");
     }
 }
 
@@ -143,7 +140,7 @@ UnitReport bakeUnits(const Scene& scene, const BakeOptions& options, UnitRange u
         throw Error(ErrorCode::invalidOption, "units are rays, kept in the folder of a checkpoint");
     return withinMemory([&] {
         ReadyBake ready(scene, options);
-        announce(ready, options, units);
+        announcePlan(ready, options, units);
         ready.gather.makeFrontUnits(units);
         return UnitReport{ready.gather.frontUnitCount(), ready.gather.missingFrontUnits().size(),
                           ready.checkpoint->warnings()};

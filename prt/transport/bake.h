@@ -33,8 +33,8 @@ struct CheckpointOptions {
 struct BakeForecast {
     std::size_t receiverCount = 0;
     std::uint64_t rayCount = 0;
-    std::size_t memoryBytes = 0;  ///< in addition to what the process has by then
-    std::size_t diskBytes = 0;    ///< for a checkpoint, or for the hits beyond the memory allowed
+    std::size_t memoryBytes = 0;  ///< of the whole process
+    std::size_t diskBytes = 0;    ///< for a checkpoint, and for what has no room in memory
     std::size_t unitCount = 0;    ///< that bakeUnits can make; 0 without a checkpoint
 };
 
@@ -45,11 +45,12 @@ struct BakeOptions {
     int bounceCount = 2;  ///< indirect bounces (C8), or kInfiniteBounces
     std::uint64_t seed = 1;
     int threadCount = 0;  ///< 0: one a core
-    std::size_t memoryBytes = std::size_t(8)
-                              << 30;  ///< for the hits of the rays; beyond it they go to disk
-    std::filesystem::path
-        scratchFolder{};       ///< where; empty: the system's folder for temporary files
-    std::optional<Isa> isa{};  ///< pins the instruction set (C10); default: the widest
+    /// What the process may have in all; hits and transfer beyond it go to disk, without changing
+    /// a bit. What the bake cannot do without, it takes: the forecast says how much that is.
+    /// 0: 512 MiB, 200 bytes a triangle, 16 a vertex and what textures take.
+    std::size_t memoryBytes = 0;
+    std::filesystem::path scratchFolder{};  ///< there; empty: the system's
+    std::optional<Isa> isa{};               ///< pins the instruction set (C10); default: the widest
     CheckpointOptions checkpoint{};
     std::function<void(const BakeForecast&)> announce{};  ///< may throw, and so refuse
     ProgressCallback progress{};
@@ -83,8 +84,8 @@ struct BakeStats {
 /// @param options  ranges as stated; out of range is an Error{invalidOption}
 /// @param stats    filled if given
 /// @throws Error   invalidOption (also for a checkpoint of another bake), cancelled, outOfMemory,
-///                 notFound for units that are required, or writeFailed for the scratch folder and
-///                 the checkpoint's
+///                 notFound for units that are
+///                 required, or writeFailed for the scratch folder and the checkpoint's
 TransferField bakeTransfer(const Scene& scene, const BakeOptions& options = {},
                            BakeStats* stats = nullptr);
 

@@ -1,15 +1,30 @@
 #pragma once
 
 #include "prt/parallel/progress.h"
+#include "prt/transfer/coefficient_table.h"
 #include "prt/transport/checkpoint.h"
 #include "prt/transport/hit_matrix.h"
 
 namespace prt {
 
+/// Transfer without bounces, of one channel.
+struct DirectTransfer {
+    CoefficientTable fronts;
+    CoefficientTable backs{};  ///< back i lies behind front i; as many, or none
+    bool isFromBacks = false;  ///< whether any light comes from backs
+
+    /// Fronts, and backs if light comes from any: what a bounce is between.
+    std::size_t receiverCount() const {
+        return fronts.rowCount() + (isFromBacks ? backs.rowCount() : 0);
+    }
+};
+
 struct BounceOptions {
-    int bandCount = 5;
     int bounceCount = 2;  ///< or kInfiniteBounces
     int threadCount = 0;
+    /// A bounce needs the transfer of all receivers in memory, but no more than so many columns of
+    /// it at a time, in blocks of kLaneMultiple.
+    std::size_t blocksAtOnce = SIZE_MAX;
     const ProgressCallback& progress;
     Checkpoint* checkpoint = nullptr;  ///< if given, each bounce's units are kept there
 };
@@ -22,10 +37,10 @@ struct BounceOptions {
 /// direct one's, or after 10000 bounces.
 ///
 /// @param matrix    sorted, if there is a checkpoint
-/// @param direct    [receiver][coefficient], one channel
-/// @param total     written: [receiver][channel][coefficient] of the first receivers
+/// @param total     zeros, written: the sum at the fronts, [channel][coefficient]; what is between
+///                  is kept where it is
 /// @return          the number of bounces made
-int addBounces(const HitMatrix& matrix, std::span<const float> direct, const GatherKernels& kernels,
-               const BounceOptions& options, std::span<float> total);
+int addBounces(const HitMatrix& matrix, const DirectTransfer& direct, const GatherKernels& kernels,
+               const BounceOptions& options, CoefficientTable& total);
 
 }  // namespace prt

@@ -164,7 +164,7 @@ HWY_INLINE void multiplyRowBlock(std::span<const BounceEntry> row, const BounceT
                   "an entry is one 128-bit block");
     const Lanes d;
     const std::size_t lanes = hn::Lanes(d);
-    const std::size_t stride = transfer.receiverStride();
+    const std::size_t stride = transfer.columnCount;
 
     // Each lane takes the weight of its channel from the entry's block: number 0 is the receiver, 1
     // to 3 are weights.
@@ -172,10 +172,11 @@ HWY_INLINE void multiplyRowBlock(std::span<const BounceEntry> row, const BounceT
     decltype(hn::SetTableIndices(d, laneChannels)) channels[kVectors];
     Vector sums[kVectors];
     for (std::size_t k = 0; k < kVectors; ++k) {
-        for (std::size_t lane = 0; lane < lanes; ++lane)
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const std::size_t column = transfer.firstColumn + first + k * lanes + lane;
             laneChannels[lane] = static_cast<std::int32_t>(
-                1 +
-                std::min<std::size_t>(2, (first + k * lanes + lane) / transfer.coefficientCount));
+                1 + std::min<std::size_t>(2, column / transfer.coefficientCount));
+        }
         channels[k] = hn::SetTableIndices(d, laneChannels);
         sums[k] = hn::Zero(d);
     }
@@ -198,7 +199,7 @@ HWY_INLINE void multiplyRowBlock(std::span<const BounceEntry> row, const BounceT
 
 void multiplyRow(std::span<const BounceEntry> row, const BounceTransfer& transfer, float* result) {
     const std::size_t lanes = hn::Lanes(Lanes());
-    const std::size_t stride = transfer.receiverStride();
+    const std::size_t stride = transfer.columnCount;
     std::size_t first = 0;
     for (; first + 5 * lanes <= stride; first += 5 * lanes)
         multiplyRowBlock<5>(row, transfer, first, result);

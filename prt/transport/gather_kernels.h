@@ -43,13 +43,13 @@ struct BounceEntry {
                  0.0f};  ///< barycentric weight × albedo at the hit / samples, summed over hits
 };
 
-/// Transfer as the bounces see it: [receiver][channel][coefficient], each
-/// receiver padded to kLaneMultiple.
+/// Some columns of transfer as the bounces see it: of [receiver][channel · n² + coefficient], those
+/// from firstColumn on.
 struct BounceTransfer {
-    const float* values = nullptr;  ///< aligned to 64 bytes
-    std::size_t coefficientCount = 0;
-
-    std::size_t receiverStride() const { return padToLanes(3 * coefficientCount); }
+    const float* values = nullptr;     ///< aligned to 64 bytes
+    std::size_t coefficientCount = 0;  ///< n²
+    std::size_t firstColumn = 0;
+    std::size_t columnCount = 0;  ///< a multiple of kLaneMultiple; beyond the last they are zero
 };
 
 /// The inner loops of the gather, for one instruction set.
@@ -63,7 +63,7 @@ struct GatherKernels {
     void (*sumVisible)(const RayStream& rays, int bandCount, std::span<float> sums);
 
     /// One row of the bounce matrix times the transfer of all receivers.
-    /// @param result  receiverStride() numbers, aligned to 64 bytes, written
+    /// @param result  one number a column, aligned to 64 bytes, written
     void (*multiplyRow)(std::span<const BounceEntry> row, const BounceTransfer& transfer,
                         float* result);
 };

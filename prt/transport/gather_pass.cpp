@@ -7,47 +7,39 @@
 #include "prt/base/error.h"
 #include "prt/basis/sh.h"
 #include "prt/parallel/parallel_for.h"
+#include "prt/transport/runs.h"
 
 namespace prt {
 namespace {
-
-// What one thread takes where a file is written afterwards; and how many files there should be at
-// most, unless each would lose much work with the process.
-constexpr std::size_t kRaysPerUnit = std::size_t(1) << 19;
-constexpr std::size_t kMaxRaysPerUnit = std::size_t(1) << 24;
-constexpr std::size_t kUnitCountAim = 8192;
 
 // A sentence names no more ranges of units than this.
 constexpr std::size_t kListedRanges = 20;
 
 /// "3, 5 to 7, 12".
-std::string listUnits(const std::vector<std::size_t>& units) {
+std::string listUnits(std::span<const std::size_t> units) {
     std::string text;
     std::size_t rangeCount = 0;
-    for (std::size_t i = 0; i < units.size(); ++rangeCount) {
-        std::size_t last = i;
-        while (last + 1 < units.size() && units[last + 1] == units[last] + 1)
-            ++last;
-        if (rangeCount == kListedRanges)
-            return text + " and " + std::to_string(units.size() - i) + " more";
-        text += (text.empty() ? "" : ", ") + std::to_string(units[i]);
-        if (last > i) text += " to " + std::to_string(units[last]);
-        i = last + 1;
-    }
-    return text;
+    std::size_t listedCount = 0;
+    forRuns(units, [&](std::size_t first, std::size_t count) {
+        if (++rangeCount > kListedRanges) return;
+        text += (text.empty() ? "" : ", ") + std::to_string(units[first]);
+        if (count > 1) text += " to " + std::to_string(units[first + count - 1]);
+        listedCount += count;
+    });
+    if (listedCount == units.size()) return text;
+    return text + " and " + std::to_string(units.size() - listedCount) + " more";
 }
 
 }  // namespace
 
-GatherOptions gatherOptionsOf(const BakeOptions& options) {
-    return {options.bandCount, padToLanes(static_cast<std::size_t>(options.sampleCount)),
-            options.seed, options.transport == Transport::interreflected};
-}
-
-std::size_t receiversPerUnit(std::size_t receiverCount, std::size_t sampleCount) {
-    const std::size_t rays =
-        std::clamp(receiverCount * sampleCount / kUnitCountAim, kRaysPerUnit, kMaxRaysPerUnit);
-    return std::max<std::size_t>(rays / sampleCount, 1);
+GatheredLight::GatheredLight(const GatherScene& scene, int bandCount, const MemoryPlan& memory)
+    : hits(memory.hitBytes, memory.tables.scratchFolder) {
+    const auto coefficientCount = static_cast<std::size_t>(shCoefficientCount(bandCount));
+    const auto makeTable = [&](std::size_t receiverCount) {
+        return CoefficientTable(receiverCount, coefficientCount, sizeof(float), memory.tables);
+    };
+    direct.fronts = makeTable(scene.receivers.fronts.size());
+    direct.backs = makeTable(scene.receivers.backs.size());
 }
 
 std::size_t GatherPass::Stage::unitCount() const {
@@ -79,8 +71,7 @@ GatherPass::GatherPass(const GatherScene& scene, const BakeOptions& options, Isa
 GatherPass::Stage GatherPass::makeStage(std::string name,
                                         std::vector<std::uint32_t> receivers) const {
     const std::size_t unitSize =
-        checkpoint_ ? receiversPerUnit(receivers.size(), gatherOptions_.sampleCount)
-                    : kReceiversPerSlab;
+        receiversPerUnit(receivers.size(), gatherOptions_.sampleCount, checkpoint_ != nullptr);
     return {std::move(name), std::move(receivers), unitSize};
 }
 
@@ -98,11 +89,11 @@ GatherUnitShape GatherPass::shapeOf(std::span<const std::uint32_t> receivers) co
 
 void GatherPass::gatherAll(GatheredLight& light) {
     if (options_.checkpoint.requireFronts) requireFrontUnits();
-    light.receiverCount = scene_.receivers.fronts.size();
-    if (light.receiverCount > 0) gatherStage(fronts_, light);
+    if (!fronts_.receivers.empty()) gatherStage(fronts_, light);
     for (int wave = 1;; ++wave) {
         const Stage backs = makeStage("backs-" + std::to_string(wave), takeNeededBacks());
         if (backs.receivers.empty()) break;
+        light.direct.isFromBacks = true;
         gatherStage(backs, light);
     }
     light.hits.sortSlabs();
@@ -140,9 +131,6 @@ void GatherPass::requireFrontUnits() const {
 }
 
 void GatherPass::gatherStage(const Stage& stage, GatheredLight& light) {
-    if (stage.receivers.front() >= light.receiverCount) light.receiverCount *= 2;
-    light.directTransfer.resize(light.receiverCount * shapeOf({}).coefficientCount);
-
     ProgressReporter reporter(options_.progress, "trace", "rays",
                               stage.receivers.size() * gatherOptions_.sampleCount);
     parallelFor(stage.unitCount(), {options_.threadCount, 1},
@@ -190,10 +178,7 @@ GatherUnit GatherPass::makeUnit(const Stage& stage, std::size_t index,
 void GatherPass::finishUnit(const Stage& stage, std::size_t index, GatherUnit unit,
                             GatheredLight& light) {
     const std::span<const std::uint32_t> receivers = stage.receiversOf(index);
-    const std::size_t n = shapeOf(receivers).coefficientCount;
-    for (std::size_t i = 0; i < receivers.size(); ++i)
-        std::copy_n(unit.transfer.data() + i * n, n,
-                    light.directTransfer.data() + receivers[i] * n);
+    keepTransfer(receivers, unit.transfer, light.direct);
 
     const std::size_t frontCount = scene_.receivers.fronts.size();
     const std::lock_guard lock(finishing_);
@@ -207,6 +192,19 @@ void GatherPass::finishUnit(const Stage& stage, std::size_t index, GatherUnit un
             backs_[entry.receiver - frontCount] = BackState::needed;
     light.hits.addSlab(std::move(unit.slab),
                        checkpoint_ ? entryLoader(stage.key(index)) : EntryLoader());
+}
+
+/// @param receivers  all fronts or all backs
+void GatherPass::keepTransfer(std::span<const std::uint32_t> receivers,
+                              std::span<const float> transfer, DirectTransfer& direct) const {
+    const std::size_t frontCount = scene_.receivers.fronts.size();
+    const bool isBack = receivers.front() >= frontCount;
+    CoefficientTable& table = isBack ? direct.backs : direct.fronts;
+    const std::size_t n = table.columnCount();
+    forRuns(receivers, [&](std::size_t first, std::size_t count) {
+        table.writeRows(receivers[first] - (isBack ? frontCount : 0),
+                        transfer.subspan(first * n, count * n));
+    });
 }
 
 /// Reads the rows of a finished unit again from its file.

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "prt/transport/bake.h"
+#include "prt/transport/bake_plan.h"
+#include "prt/transport/bounce.h"
 #include "prt/transport/checkpoint.h"
 #include "prt/transport/gather.h"
 #include "prt/transport/gather_unit.h"
@@ -16,21 +18,13 @@ namespace prt {
 
 /// Shadowed transfer of every receiver that is needed, and the hits of their rays.
 struct GatheredLight {
-    std::size_t receiverCount = 0;      // fronts, and backs if light comes from any
-    std::vector<float> directTransfer;  // [receiver][coefficient]
+    /// Nothing yet, with room for all receivers of a scene.
+    GatheredLight(const GatherScene& scene, int bandCount, const MemoryPlan& memory);
+
+    DirectTransfer direct;
     HitMatrix hits;
     GatherCounts counts;
 };
-
-/// The options of the gather that a bake asks for.
-GatherOptions gatherOptionsOf(const BakeOptions& options);
-
-/// What one thread takes at a time where nothing is kept.
-inline constexpr std::size_t kReceiversPerSlab = 128;
-
-/// How many receivers' work is kept in one file: half a million rays, which takes a core
-/// a tenth of a second, and more where there would be ten thousands of files.
-std::size_t receiversPerUnit(std::size_t receiverCount, std::size_t sampleCount);
 
 /// Gathers at all fronts, and then at those backs of double-sided surfaces that rays have met, and
 /// at those that these meet in turn: a stage each, cut into units of a size that depends on
@@ -76,6 +70,8 @@ class GatherPass {
     bool loadUnit(const Stage& stage, std::size_t index, GatherUnit& unit) const;
     GatherUnit makeUnit(const Stage& stage, std::size_t index, ProgressReporter& reporter) const;
     void finishUnit(const Stage& stage, std::size_t index, GatherUnit unit, GatheredLight& light);
+    void keepTransfer(std::span<const std::uint32_t> receivers, std::span<const float> transfer,
+                      DirectTransfer& direct) const;
     EntryLoader entryLoader(const UnitKey& key) const;
     std::vector<std::uint32_t> takeNeededBacks() const;
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "prt/base/scratch_file.h"
 #include "prt/transport/gather_kernels.h"
 
 namespace prt {
@@ -35,11 +36,8 @@ using EntryLoader =
 class HitMatrix {
   public:
     /// @param memoryBytes    for entries; slabs beyond it go to a nameless file in scratchFolder
-    /// @param scratchFolder  empty: the system's folder for temporary files
+    /// @param scratchFolder  as of a ScratchFile
     HitMatrix(std::size_t memoryBytes, std::filesystem::path scratchFolder);
-    ~HitMatrix();
-    HitMatrix(const HitMatrix&) = delete;
-    HitMatrix& operator=(const HitMatrix&) = delete;
 
     /// Adds rows; may be called from many threads.
     ///
@@ -64,7 +62,6 @@ class HitMatrix {
     void visitSlab(std::size_t index, const std::function<void(const HitSlab&)>& visit) const;
 
   private:
-    class SpillFile;
     struct StoredSlab {
         HitSlab slab;  // its entries are empty while they are on disk
         EntryLoader loader;
@@ -78,7 +75,8 @@ class HitMatrix {
     std::size_t rowCount_ = 0;
     std::size_t entryBytes_ = 0;
     std::vector<StoredSlab> slabs_;
-    std::unique_ptr<SpillFile> spill_;
+    std::unique_ptr<ScratchFile> spill_;
+    std::uint64_t spilledBytes_ = 0;
 };
 
 }  // namespace prt

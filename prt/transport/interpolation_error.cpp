@@ -98,7 +98,7 @@ class TransferInterpolator {
     }
 
   private:
-    std::span<const float> cornerTransfer(const SurfacePoint& point, std::size_t corner) const {
+    std::vector<float> cornerTransfer(const SurfacePoint& point, std::size_t corner) const {
         const std::uint32_t vertex = scene_.meshes[point.mesh].indices[3 * point.triangle + corner];
         return transferVector(field_, layer_,
                               field_.receiverOfVertex[vertexOffsets_[point.mesh] + vertex], 0);

@@ -2,6 +2,7 @@
 
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "prt/basis/sh.h"
 #include "prt/basis/zonal.h"
@@ -15,13 +16,14 @@ TransferField makeUnshadowedTransfer(const Scene& scene, int bandCount) {
     std::iota(field.receiverOfVertex.begin(), field.receiverOfVertex.end(), 0u);
 
     TransferLayer layer{Transport::unshadowed, 1,
-                        std::vector<float>(field.receiverCount * coefficientCount)};
+                        CoefficientTable(field.receiverCount, coefficientCount, sizeof(float))};
+    std::vector<float> row(coefficientCount);
     std::size_t receiver = 0;
     for (const Mesh& mesh : scene.meshes)
-        for (const Vec3f& normal : mesh.normals)
-            unshadowedTransfer(normal, bandCount,
-                               std::span(layer.coefficients)
-                                   .subspan(receiver++ * coefficientCount, coefficientCount));
+        for (const Vec3f& normal : mesh.normals) {
+            unshadowedTransfer(normal, bandCount, row);
+            layer.coefficients.writeRows(receiver++, std::span<const float>(row));
+        }
     field.layers.push_back(std::move(layer));
     return field;
 }

@@ -59,16 +59,19 @@ inline CompressedTransfer makeTransfer(const Scene& scene, int bandCount, Transf
         layer.channelCount = transport == Transport::interreflected ? 3 : 1;
         layer.encoding = encoding;
         const std::size_t rowLength = coefficientsPerReceiver(bandCount, layer.channelCount);
-        for (std::size_t i = 0; i < transfer.receiverCount * rowLength; ++i) {
-            const float value = 0.5f * random.nextUnitFloat() - 0.25f;
-            const std::uint32_t bits = random.nextBits();
-            const std::size_t byteCount = bytesPerCoefficient(encoding);
-            const std::size_t end = layer.data.size();
-            layer.data.resize(end + byteCount);
-            if (encoding == TransferEncoding::float32)
-                std::memcpy(layer.data.data() + end, &value, byteCount);
-            else
-                std::memcpy(layer.data.data() + end, &bits, byteCount);
+        const std::size_t byteCount = bytesPerCoefficient(encoding);
+        layer.data = CoefficientTable(transfer.receiverCount, rowLength, byteCount);
+        std::vector<std::byte> row(rowLength * byteCount);
+        for (std::size_t receiver = 0; receiver < transfer.receiverCount; ++receiver) {
+            for (std::size_t begin = 0; begin < row.size(); begin += byteCount) {
+                const float value = 0.5f * random.nextUnitFloat() - 0.25f;
+                const std::uint32_t bits = random.nextBits();
+                const void* source = encoding == TransferEncoding::float32
+                                         ? static_cast<const void*>(&value)
+                                         : &bits;
+                std::memcpy(row.data() + begin, source, byteCount);
+            }
+            layer.data.writeRows(receiver, std::span<const std::byte>(row));
         }
         for (std::size_t i = 0; encoding != TransferEncoding::float32 && i < rowLength; ++i) {
             layer.scale.push_back(0.3f * random.nextUnitFloat());

@@ -52,7 +52,7 @@ bool isSameTransfer(const CompressedTransfer& a, const CompressedTransfer& b) {
             a.layers[i].channelCount != b.layers[i].channelCount ||
             a.layers[i].encoding != b.layers[i].encoding ||
             a.layers[i].scale != b.layers[i].scale || a.layers[i].bias != b.layers[i].bias ||
-            a.layers[i].data != b.layers[i].data)
+            !(a.layers[i].data == b.layers[i].data))
             return false;
     return true;
 }

@@ -15,12 +15,9 @@ Asset assetWith(const std::vector<float>& vector) {
     asset.transfer.bandCount = 2;
     asset.transfer.receiverCount = 4;
     CompressedLayer layer;
-    for (int vertex = 0; vertex < 4; ++vertex)
-        for (const float value : vector) {
-            const std::size_t end = layer.data.size();
-            layer.data.resize(end + sizeof(value));
-            std::memcpy(layer.data.data() + end, &value, sizeof(value));
-        }
+    layer.data = CoefficientTable(4, vector.size(), sizeof(float));
+    for (std::size_t vertex = 0; vertex < 4; ++vertex)
+        layer.data.writeRows(vertex, std::span(vector));
     asset.transfer.layers = {layer};
     return asset;
 }
@@ -54,7 +51,7 @@ TEST(CheckAsset, NegativeRadianceIsDoubted) {
 TEST(CheckAsset, ManyUnlitVerticesAreDoubtedAndFewAreNot) {
     expectProblem({0.0f, 0.0f, 0.0f, 0.0f}, "no light");
     Asset asset = assetWith({0.2f, 0.0f, 0.1f, 0.0f});
-    std::memset(asset.transfer.layers[0].data.data(), 0, 4 * sizeof(float));
+    asset.transfer.layers[0].data.writeRows(0, std::span<const float>(std::vector<float>(4)));
     EXPECT_TRUE(findAssetProblems(asset).empty());
 }
 

@@ -161,10 +161,7 @@ std::vector<float> bakeThroughAsset(const Scene& scene) {
     const CompressedTransfer compressed =
         compressTransfer(bakeTransfer(scene, kOptions), {.encoding = TransferEncoding::float32});
     const Asset asset = decodeAsset(encodeAsset(scene, compressed, {}), "awkward.prt.glb");
-    const CompressedLayer& layer = *asset.transfer.findLayer(Transport::interreflected);
-    std::vector<float> coefficients(layer.data.size() / sizeof(float));
-    std::memcpy(coefficients.data(), layer.data.data(), layer.data.size());
-    return coefficients;
+    return expandLayer(*asset.transfer.findLayer(Transport::interreflected));
 }
 
 /// The same triangles in another order.

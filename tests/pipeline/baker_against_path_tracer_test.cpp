@@ -51,11 +51,12 @@ BakedTransfer bakeManyTimes(const Scene& scene, int bounceCount) {
         options.bounceCount = bounceCount;
         options.seed = 100 + static_cast<std::uint64_t>(i);
         const TransferField field = bakeTransfer(scene, options);
-        const TransferLayer& layer = *field.findLayer(Transport::interreflected);
+        const std::vector<float> coefficients =
+            copyRows<float>(field.findLayer(Transport::interreflected)->coefficients);
         baked.mean.resize(field.receiverCount * kRowSize);
         baked.variance.resize(baked.mean.size());
         for (std::size_t k = 0; k < baked.mean.size(); ++k) {
-            const auto value = static_cast<double>(layer.coefficients[k]);
+            const auto value = static_cast<double>(coefficients[k]);
             baked.mean[k] += value / kBakeCount;
             baked.variance[k] += value * value / kBakeCount;
         }

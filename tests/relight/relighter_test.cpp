@@ -31,20 +31,27 @@ Lighting makeRandomLighting(int bandCount, std::uint64_t seed) {
     return lighting;
 }
 
-template <class Stored>
-void appendValue(std::vector<std::byte>& data, Stored value) {
-    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
-    data.insert(data.end(), bytes, bytes + sizeof(Stored));
+template <class Stored, class NextValue>
+CoefficientTable makeTableOf(std::size_t rowCount, std::size_t columnCount, NextValue nextValue) {
+    std::vector<Stored> values(rowCount * columnCount);
+    for (Stored& value : values)
+        value = static_cast<Stored>(nextValue());
+    return makeTable(columnCount, values);
 }
 
-void appendRandomValue(std::vector<std::byte>& data, TransferEncoding encoding,
-                       RandomStream& random) {
-    if (encoding == TransferEncoding::float32)
-        appendValue(data, static_cast<float>(randomSigned(random)));
-    else if (encoding == TransferEncoding::unorm16)
-        appendValue(data, static_cast<std::uint16_t>(random.nextBits() >> 16));
-    else
-        appendValue(data, static_cast<std::uint8_t>(random.nextBits() >> 24));
+CoefficientTable makeRandomTable(std::size_t rowCount, std::size_t columnCount,
+                                 TransferEncoding encoding, RandomStream& random) {
+    switch (encoding) {
+        case TransferEncoding::unorm16:
+            return makeTableOf<std::uint16_t>(rowCount, columnCount,
+                                              [&] { return random.nextBits() >> 16; });
+        case TransferEncoding::unorm8:
+            return makeTableOf<std::uint8_t>(rowCount, columnCount,
+                                             [&] { return random.nextBits() >> 24; });
+        case TransferEncoding::float32:
+            break;
+    }
+    return makeTableOf<float>(rowCount, columnCount, [&] { return randomSigned(random); });
 }
 
 CompressedTransfer makeRandomTransfer(int bandCount, int channelCount, TransferEncoding encoding,
@@ -58,8 +65,7 @@ CompressedTransfer makeRandomTransfer(int bandCount, int channelCount, TransferE
     layer.encoding = encoding;
     const auto rowCount = static_cast<std::size_t>(channelCount * shCoefficientCount(bandCount));
     RandomStream random(20260101, receiverCount);
-    for (std::size_t i = 0; i < receiverCount * rowCount; ++i)
-        appendRandomValue(layer.data, encoding, random);
+    layer.data = makeRandomTable(receiverCount, rowCount, encoding, random);
     if (encoding != TransferEncoding::float32) {
         for (std::size_t row = 0; row < rowCount; ++row) {
             layer.scale.push_back(random.nextUnitFloat() + 0.1f);
@@ -72,9 +78,9 @@ CompressedTransfer makeRandomTransfer(int bandCount, int channelCount, TransferE
 
 template <class Stored>
 double storedValue(const CompressedLayer& layer, std::size_t index) {
-    Stored value;
-    std::memcpy(&value, &layer.data[index * sizeof(Stored)], sizeof(Stored));
-    return static_cast<double>(value);
+    std::vector<Stored> row(layer.data.columnCount());
+    layer.data.readRow(index / row.size(), std::span(row));
+    return static_cast<double>(row[index % row.size()]);
 }
 
 struct Exact {
@@ -323,13 +329,15 @@ TEST(Relighter, ShadingOfInterpolatedTransferIsInterpolatedShading) {
     constexpr double kWeights[3] = {0.5, 0.3125, 0.1875};  // sum to 1, exact in float
     CompressedTransfer transfer = makeRandomTransfer(5, 1, TransferEncoding::float32, 3);
     CompressedLayer& layer = transfer.layers.front();
+    std::vector<float> rows = expandLayer(layer);
     for (std::size_t i = 0; i < kCoefficientCount; ++i) {
         double interpolated = 0.0;
         for (std::size_t corner = 0; corner < 3; ++corner)
             interpolated +=
                 kWeights[corner] * storedValue<float>(layer, corner * kCoefficientCount + i);
-        appendValue(layer.data, static_cast<float>(interpolated));
+        rows.push_back(static_cast<float>(interpolated));
     }
+    layer.data = makeTable(kCoefficientCount, rows);
     transfer.receiverCount = 4;
 
     const Lighting lighting = makeRandomLighting(5, 13);

@@ -40,8 +40,8 @@ const TransferLayer& layerOf(const TransferField& field, Transport transport) {
     return *layer;
 }
 
-std::span<const float> vertexTransfer(const TransferField& field, Transport transport,
-                                      std::size_t vertex, int channel = 0) {
+std::vector<float> vertexTransfer(const TransferField& field, Transport transport,
+                                  std::size_t vertex, int channel = 0) {
     return transferVector(field, layerOf(field, transport), field.receiverOfVertex[vertex],
                           channel);
 }
@@ -154,7 +154,7 @@ TEST(BakeShadowed, ClosedBoxesAreDarkAtAnySizeAndPlace) {  // A12
                 options.sampleCount = 256;
                 const TransferField field = bakeTransfer(scene, options);
                 float largest = 0.0f;
-                for (const float value : field.layers[0].coefficients)
+                for (const float value : copyRows<float>(field.layers[0].coefficients))
                     largest = std::max(largest, std::abs(value));
                 EXPECT_EQ(largest, 0.0f)
                     << "scale " << scale << ", far " << far << ", turned " << turned;
@@ -368,12 +368,12 @@ TEST(Conventions, C10_SameSeedSameBitsForAnyThreadCount) {  // C1 of the reliabi
         const TransferField field = bakeTransfer(scene, options);
         ASSERT_EQ(field.layers.size(), reference.layers.size());
         for (std::size_t i = 0; i < field.layers.size(); ++i)
-            EXPECT_EQ(field.layers[i].coefficients, reference.layers[i].coefficients)
+            EXPECT_TRUE(field.layers[i].coefficients == reference.layers[i].coefficients)
                 << threadCount << " threads";
     }
     options.seed = 2;
-    EXPECT_NE(bakeTransfer(scene, options).layers[0].coefficients,
-              reference.layers[0].coefficients);
+    EXPECT_FALSE(bakeTransfer(scene, options).layers[0].coefficients ==
+                 reference.layers[0].coefficients);
 }
 
 TEST(Conventions, C11_DirectionsBelowTheGeometricSurfaceAreBlocked) {
@@ -417,16 +417,20 @@ TEST(Bake, ResultsDoNotDependOnSizeOrPlace) {
     expectSame(transformScene(scene, Mat3d(), 1e3, Vec3f(0.0f)), 5e-4, "a thousand times");
 }
 
-TEST(Bake, HitsOnDiskGiveTheSameBits) {
+TEST(Bake, HitsAndTransferOnDiskGiveTheSameBits) {
     const Scene scene = makeRoomScene();
     BakeOptions options;
     options.sampleCount = 32;
     options.bandCount = 3;
     BakeStats stats;
     const TransferField reference = bakeTransfer(scene, options, &stats);
-    options.memoryBytes = stats.hitBytes / 3;
-    EXPECT_EQ(bakeTransfer(scene, options).layers[1].coefficients,
-              reference.layers[1].coefficients);
+    options.memoryBytes = 1;  // no more than it cannot do without
+    const TransferField field = bakeTransfer(scene, options);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_TRUE(field.layers[i].coefficients.storage().onDisk);
+        EXPECT_FALSE(reference.layers[i].coefficients.storage().onDisk);
+        EXPECT_TRUE(field.layers[i].coefficients == reference.layers[i].coefficients);
+    }
 }
 
 TEST(Bake, VerticesEqualInPositionAndNormalShareAReceiver) {

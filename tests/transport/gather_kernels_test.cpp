@@ -85,7 +85,8 @@ TEST_P(GatherKernelsTest, MultipliesARowOfTheBounceMatrix) {
         {2, {0.5f, 0.25f, 0.125f}}, {7, {0.1f, 0.2f, 0.3f}}, {0, {0.0f, 1.0f, 0.0f}}};
     for (int bandCount = 1; bandCount <= kMaxBandCount; ++bandCount) {
         BounceTransfer transfer{nullptr, static_cast<std::size_t>(shCoefficientCount(bandCount))};
-        const std::size_t stride = transfer.receiverStride();
+        transfer.columnCount = padToLanes(3 * transfer.coefficientCount);
+        const std::size_t stride = transfer.columnCount;
         const auto values = hwy::AllocateAligned<float>(kReceiverCount * stride);
         for (std::size_t i = 0; i < kReceiverCount * stride; ++i)
             values[i] = random.nextUnitFloat();

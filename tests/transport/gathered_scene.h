@@ -32,11 +32,11 @@ struct GatheredScene {
 
     /// What `source`, gathered at every receiver, comes to with bounces: [receiver][channel].
     std::vector<float> bounce(const std::vector<float>& source, int bounceCount) const {
-        std::vector<float> total(3 * source.size());
+        CoefficientTable total(source.size(), 3, sizeof(float));
         const ProgressCallback none;
-        addBounces(hits, source, selectGatherKernels(detectIsa()), {1, bounceCount, 0, none},
-                   total);
-        return total;
+        addBounces(hits, {makeTable(1, source), {}}, selectGatherKernels(detectIsa()),
+                   {.bounceCount = bounceCount, .progress = none}, total);
+        return copyRows<float>(total);
     }
 };
 

@@ -127,7 +127,8 @@ TEST(InterpolationError, OfAnOpenPlaneIsNoise) {
 TEST(InterpolationError, OfDarkTransferUnderAnOpenSkyIsOne) {
     const Scene open = sceneOf({makeFloor(1.0f, 0.0f, 2)});
     TransferField field = bakeTransfer(open, {.transport = Transport::shadowed});
-    field.layers[0].coefficients.assign(field.layers[0].coefficients.size(), 0.0f);
+    field.layers[0].coefficients =
+        CoefficientTable(field.receiverCount, coefficientsPerReceiver(5, 1), sizeof(float));
     const InterpolationError error = measureInterpolationError(open, field, {.pointCount = 200});
     EXPECT_NEAR(error.rms, 1.0, 0.005);
     EXPECT_NEAR(error.percentile99, 1.0, 0.005);
@@ -138,11 +139,15 @@ TEST(InterpolationError, OfDarkTransferUnderAnOpenSkyIsOne) {
 TEST(InterpolationError, IsLinearInTheTriangle) {
     const Scene open = sceneOf({makeFloor(1.0f, 0.0f, 1)});
     TransferField field = bakeTransfer(open, {.transport = Transport::shadowed});
-    const std::size_t size = field.layers[0].coefficients.size() / field.receiverCount;
-    for (std::size_t vertex = 0; vertex < 4; ++vertex)
-        if (open.meshes[0].positions[vertex].x < 0.0f)
-            for (std::size_t i = 0; i < size; ++i)
-                field.layers[0].coefficients[field.receiverOfVertex[vertex] * size + i] *= 0.5f;
+    CoefficientTable& coefficients = field.layers[0].coefficients;
+    std::vector<float> row(coefficients.columnCount());
+    for (std::size_t vertex = 0; vertex < 4; ++vertex) {
+        if (open.meshes[0].positions[vertex].x >= 0.0f) continue;
+        coefficients.readRow(field.receiverOfVertex[vertex], std::span(row));
+        for (float& value : row)
+            value *= 0.5f;
+        coefficients.writeRows(field.receiverOfVertex[vertex], std::span<const float>(row));
+    }
     const InterpolationError error = measureInterpolationError(open, field, {.pointCount = 2000});
     EXPECT_NEAR(error.rms, 0.5 / std::sqrt(3.0), 0.005);  // of a ramp from ½ to 0
     EXPECT_NEAR(error.percentile99, 0.495, 0.005);

@@ -1,0 +1,16 @@
+#include "prt/base/resident_memory.h"
+
+#include <unistd.h>
+
+#include <fstream>
+
+namespace prt {
+
+std::uint64_t residentBytes() {
+    std::uint64_t totalPages = 0;
+    std::uint64_t residentPages = 0;
+    std::ifstream("/proc/self/statm") >> totalPages >> residentPages;
+    return residentPages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace prt

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <cstdint>
+
+namespace prt {
+
+/// Memory that this process holds now; 0 where the system does not say.
+std::uint64_t residentBytes();
+
+}  // namespace prt
