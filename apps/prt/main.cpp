@@ -11,6 +11,7 @@
 #include "apps/prt/commands.h"
 #include "apps/prt/help_formatter.h"
 #include "apps/prt/interrupts.h"
+#include "apps/prt/memory.h"
 #include "prt/base/error.h"
 
 namespace {
@@ -57,7 +58,8 @@ int exitCodeOf(const CLI::App& app, const CLI::ParseError& error) {
     return fail(kWrongUsage, fmt::format("{} (see {} --help)", error.what(), command));
 }
 
-int run(int argumentCount, char** arguments) {
+/// Reads the command line and does what it says.
+int runCommand(int argumentCount, char** arguments) {
     CLI::App app(kDescription, "prt");
     app.formatter(std::make_shared<prt::cli::HelpFormatter>());
     app.set_version_flag("--version", "prt " PRT_VERSION, "show the version");
@@ -72,30 +74,39 @@ int run(int argumentCount, char** arguments) {
     prt::cli::addCompareCommand(app);
     prt::cli::addInfoCommand(app);
     prt::cli::addCheckCommand(app);
-
     try {
         app.parse(argumentCount, arguments);
     } catch (const CLI::ParseError& error) {
         return exitCodeOf(app, error);
+    }
+    return kDone;
+}
+
+int run(int argumentCount, char** arguments) {
+    try {
+        return runCommand(argumentCount, arguments);
     } catch (const prt::Error& error) {
         return exitCodeOf(error);
     } catch (const std::bad_alloc&) {
-        return fail(
-            kFailed,
-            "the machine has too little memory for this (use a smaller scene or fewer bands)");
+        // Without an allocation, for there may be no memory for one.
+        std::fputs(
+            "prt: error: the machine has too little memory for this (use a smaller scene or "
+            "fewer bands)\n",
+            stderr);
+        return kFailed;
     } catch (const std::system_error& error) {
         // Only printing lets these through: the library's own come as Error.
         return fail(kFailed, std::string("standard output: cannot be written: ") + error.what());
     } catch (const std::exception& error) {
         return fail(kFailed, error.what());
     }
-    return kDone;
 }
 
 }  // namespace
 
 int main(int argumentCount, char** arguments) {
     prt::cli::installInterruptHandler();
+    prt::cli::reserveMemoryForTheEnd();
     // A file-size limit then shows as a failed write, which names the file.
     std::signal(SIGXFSZ, SIG_IGN);
     const int exitCode = run(argumentCount, arguments);

@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstdlib>
 #include <fstream>
+#include <new>
 #include <string>
 
 namespace prt::cli {
@@ -45,6 +48,16 @@ std::uint64_t grantedBytes() {
     const std::uint64_t machine = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                                   static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
     return std::min({machine, static_cast<std::uint64_t>(addressSpace.rlim_cur), groupLimit()});
+}
+
+void reserveMemoryForTheEnd() {
+    constexpr std::size_t kReservedBytes = std::size_t(1) << 20;
+    static std::atomic<void*> reserve = std::malloc(kReservedBytes);
+    std::set_new_handler([] {
+        void* const kept = reserve.exchange(nullptr);
+        if (!kept) throw std::bad_alloc();
+        std::free(kept);
+    });
 }
 
 }  // namespace prt::cli

@@ -79,6 +79,8 @@ using TracedScene = std::unique_ptr<RTCSceneTy, SceneDeleter>;
 
 [[noreturn]] void throwTracerError(RTCDevice device) {
     const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_NONE)  // it could not even be made
+        throw Error(ErrorCode::outOfMemory, "the ray tracer does not start");
     if (error == RTC_ERROR_OUT_OF_MEMORY)
         throw Error(ErrorCode::outOfMemory, "the scene does not fit in memory for ray tracing");
     throw Error(ErrorCode::unsupported, "the ray tracer failed with code " + std::to_string(error));
