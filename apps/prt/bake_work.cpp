@@ -101,9 +101,8 @@ Scene prepareScene(BakeArguments& arguments, StageLog& log) {
     return refineWhereNeeded(std::move(refined), arguments, log);
 }
 
-/// Checks that a binary glTF can hold the transfer that will be baked, before it is.
-void checkAssetSize(const Scene& scene, const BakeArguments& arguments) {
-    constexpr std::uint64_t kMaxBytes = UINT32_MAX;
+/// What transfer will take in the asset.
+std::uint64_t countTransferBytes(const Scene& scene, const BakeArguments& arguments) {
     std::uint64_t vertexBytes = 0;
     for (const int channelCount : {1, 3}) {
         if (channelCount == 3 && arguments.bake.transport != Transport::interreflected) continue;
@@ -111,13 +110,28 @@ void checkAssetSize(const Scene& scene, const BakeArguments& arguments) {
         vertexBytes += countAttributes(arguments.bake.bandCount, layer) *
                        kCoefficientsPerAttribute * bytesPerCoefficient(arguments.encoding);
     }
-    const std::uint64_t bytes = scene.vertexCount() * vertexBytes;
-    if (bytes <= kMaxBytes) return;
-    throw Error(
-        ErrorCode::limitExceeded,
-        fmt::format("would need {} of transfer, more than the {} that a binary glTF can have",
-                    formatBytes(bytes), formatBytes(kMaxBytes)),
-        arguments.output, "use fewer bands, --method u16 or u8, or split the scene");
+    return scene.vertexCount() * vertexBytes;
+}
+
+/// Checks that a binary glTF can hold what will be baked, and the disk too, before it is.
+void checkAssetSize(const Scene& scene, const BakeArguments& arguments) {
+    constexpr std::uint64_t kMaxBytes = UINT32_MAX;
+    const std::uint64_t bytes = countTransferBytes(scene, arguments);
+    if (bytes > kMaxBytes)
+        throw Error(
+            ErrorCode::limitExceeded,
+            fmt::format("would need {} of transfer, more than the {} that a binary glTF can have",
+                        formatBytes(bytes), formatBytes(kMaxBytes)),
+            arguments.output, "use fewer bands, --method u16 or u8, or split the scene");
+    std::error_code unknown;
+    const std::uint64_t freeBytes =
+        std::filesystem::space(std::filesystem::absolute(arguments.output).parent_path(), unknown)
+            .available;
+    if (!unknown && bytes > freeBytes)
+        throw Error(ErrorCode::writeFailed,
+                    fmt::format("needs more than {}, and its disk has {} left", formatBytes(bytes),
+                                formatBytes(freeBytes)),
+                    arguments.output, "make space, or use fewer bands or --method u16 or u8");
 }
 
 /// Says what the bake will take.
