@@ -18,13 +18,19 @@ struct GlbFile {
     std::vector<std::byte> binary;
 
     /// The bytes of a buffer view. @throws std::out_of_range  if there is no such view or byte
-    std::span<std::byte> view(std::size_t index) {
-        const nlohmann::json& object = json.at("bufferViews").at(index);
-        const std::size_t offset = object.value("byteOffset", std::size_t(0));
-        const std::size_t length = object.at("byteLength");
+    std::span<std::byte> view(const nlohmann::json& index) {
+        const nlohmann::json& object = json.at("bufferViews").at(readSize(index));
+        const std::size_t offset = readSize(object.value("byteOffset", nlohmann::json(0u)));
+        const std::size_t length = readSize(object.at("byteLength"));
         if (offset > binary.size() || length > binary.size() - offset)
             throw std::out_of_range("a buffer view ends beyond the binary chunk");
         return std::span(binary).subspan(offset, length);
+    }
+
+  private:
+    static std::size_t readSize(const nlohmann::json& number) {
+        if (!number.is_number_unsigned()) throw std::out_of_range("this is no size");
+        return number.get<std::size_t>();
     }
 };
 
