@@ -3,11 +3,13 @@
 //   [Sloan08]        Stupid spherical harmonics tricks
 #include "prt/basis/zonal.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "prt/base/assert.h"
 #include "prt/basis/sh.h"
+#include "prt/math/quadrature.h"
 
 namespace prt {
 namespace {
@@ -26,6 +28,16 @@ double clampedCosineFactor(int l) {
         centralBinomial *= (k - 1.0) / k;
     const double sign = l % 4 == 0 ? -1.0 : 1.0;
     return 2.0 * std::numbers::pi * sign / ((l + 2.0) * (l - 1.0)) * centralBinomial;
+}
+
+/// Multiplies each band of n² coefficients by a factor of its own.
+template <class Real, class FactorOf>
+void scaleBands(std::span<Real> coefficients, FactorOf factorOf) {
+    for (int l = 0; shCoefficientCount(l) < static_cast<int>(coefficients.size()); ++l) {
+        const auto factor = static_cast<Real>(factorOf(l));
+        for (int i = shCoefficientCount(l); i < shCoefficientCount(l + 1); ++i)
+            coefficients[static_cast<std::size_t>(i)] *= factor;
+    }
 }
 
 }  // namespace
@@ -64,25 +76,54 @@ std::vector<double> capZonal(int bandCount, double halfAngleRadians) {
     return zonal;
 }
 
-void rotateZonal(std::span<const double> zonal, const Vec3d& axis, std::span<double> coefficients) {
-    const int bandCount = static_cast<int>(zonal.size());
-    evaluateSh(axis, bandCount, coefficients);
-    for (int l = 0; l < bandCount; ++l) {
-        const double factor = zonal[static_cast<std::size_t>(l)] / zonalPeak(l);
-        for (int i = l * l; i < (l + 1) * (l + 1); ++i) {
-            coefficients[static_cast<std::size_t>(i)] *= factor;
-        }
+std::vector<double> phongZonal(int bandCount, double exponent) {
+    PRT_ASSERT(bandCount >= 1, "there is at least one band");
+    PRT_ASSERT(exponent >= 0.0, "a lobe is not less than nothing");
+    // ∫ z^s P_l dz over [0, 1], each from the one two degrees below.
+    std::vector<double> integrals = {1.0 / (exponent + 1.0), 1.0 / (exponent + 2.0)};
+    for (int l = 2; l < bandCount; ++l)
+        integrals.push_back(integrals[static_cast<std::size_t>(l) - 2] * (exponent - l + 2.0) /
+                            (exponent + l + 1.0));
+    std::vector<double> zonal;
+    for (int l = 0; l < bandCount; ++l)
+        zonal.push_back((exponent + 1.0) * zonalPeak(l) * integrals[static_cast<std::size_t>(l)]);
+    return zonal;
+}
+
+std::vector<double> projectZonal(const std::function<double(double)>& function, int bandCount,
+                                 int nodeCount) {
+    PRT_ASSERT(bandCount >= 1 && nodeCount >= bandCount, "enough nodes for the bands");
+    std::vector<double> zonal(static_cast<std::size_t>(bandCount));
+    std::vector<double> basis(static_cast<std::size_t>(shCoefficientCount(bandCount)));
+    for (const auto& [z, weight] : gaussLegendre(nodeCount)) {
+        evaluateSh(Vec3d(std::sqrt(1.0 - z * z), 0.0, z), bandCount, basis);
+        const double value = 2.0 * std::numbers::pi * weight * function(z);
+        for (int l = 0; l < bandCount; ++l)
+            zonal[static_cast<std::size_t>(l)] +=
+                value * basis[static_cast<std::size_t>(shIndex(l, 0))];
     }
+    return zonal;
+}
+
+void convolveZonal(std::span<const double> kernel, std::span<const double> coefficients,
+                   std::span<double> convolved) {
+    PRT_ASSERT(coefficients.size() == kernel.size() * kernel.size() &&
+                   convolved.size() == coefficients.size(),
+               "n coefficients of the kernel, n² of the function");
+    std::copy(coefficients.begin(), coefficients.end(), convolved.begin());
+    scaleBands(convolved,
+               [&](int l) { return kernel[static_cast<std::size_t>(l)] / zonalPeak(l); });
+}
+
+void rotateZonal(std::span<const double> zonal, const Vec3d& axis, std::span<double> coefficients) {
+    evaluateSh(axis, static_cast<int>(zonal.size()), coefficients);
+    scaleBands(coefficients,
+               [&](int l) { return zonal[static_cast<std::size_t>(l)] / zonalPeak(l); });
 }
 
 void unshadowedTransfer(const Vec3f& normal, int bandCount, std::span<float> transfer) {
     evaluateSh(normal, bandCount, transfer);
-    for (int l = 0; l < bandCount; ++l) {
-        const float factor = static_cast<float>(std::numbers::inv_pi * clampedCosineFactor(l));
-        for (int i = l * l; i < (l + 1) * (l + 1); ++i) {
-            transfer[static_cast<std::size_t>(i)] *= factor;
-        }
-    }
+    scaleBands(transfer, [](int l) { return std::numbers::inv_pi * clampedCosineFactor(l); });
 }
 
 }  // namespace prt

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,29 @@ std::vector<double> clampedCosineZonal(int bandCount);
 ///
 /// @param halfAngleRadians  in [0, π]
 std::vector<double> capZonal(int bandCount, double halfAngleRadians);
+
+/// Zonal coefficients of a Phong lobe, (s + 1)/(2π) max(cos θ, 0)^s, in closed form: its integral
+/// over the sphere is 1, and s = 1 is the clamped cosine over π.
+///
+/// @param exponent  s ≥ 0; need not be whole
+std::vector<double> phongZonal(int bandCount, double exponent);
+
+/// Zonal coefficients of any function of the angle to +z, z_l = 2π ∫ f(z) y_l0(z) dz, by
+/// Gauss-Legendre quadrature: exact for polynomials of degree 2·nodeCount − bandCount.
+///
+/// @param function   of z = cos θ in [−1, 1]
+/// @param nodeCount  at least bandCount
+std::vector<double> projectZonal(const std::function<double(double)>& function, int bandCount,
+                                 int nodeCount = 64);
+
+/// Convolves a function with a kernel that is the same about every direction, what irradiance is of
+/// radiance: (h ∗ f)_lm = √(4π/(2l+1)) h_l f_lm [Ramamoorthi01].
+///
+/// @param kernel        zonal, n coefficients
+/// @param coefficients  n² numbers
+/// @param convolved     n² numbers, written; may be the same as `coefficients`
+void convolveZonal(std::span<const double> kernel, std::span<const double> coefficients,
+                   std::span<double> convolved);
 
 /// Turns a zonal function about +z to another axis: c_lm = √(4π/(2l+1)) z_l y_lm(axis) [Sloan08].
 ///

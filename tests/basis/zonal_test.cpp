@@ -149,5 +149,55 @@ TEST(UnshadowedTransfer, OfAnyNormalIsTheProjectedCosine) {
     }
 }
 
+TEST(PhongZonal, IsTheIntegralOfTheLobe) {
+    for (const double exponent : {0.0, 1.0, 2.5, 10.0, 50.0}) {
+        const auto lobe = [&](double z) {
+            return (exponent + 1.0) / (2.0 * kPi) * std::pow(z, exponent);
+        };
+        const auto zonal = phongZonal(12, exponent);
+        for (int l = 0; l < 12; ++l)
+            EXPECT_NEAR(zonal[static_cast<std::size_t>(l)], integrateZonal(l, 0.0, lobe), 1e-8)
+                << "exponent " << exponent << ", degree " << l;
+    }
+    const auto cosine = clampedCosineZonal(10);
+    const auto phong = phongZonal(10, 1.0);
+    for (std::size_t l = 0; l < 10; ++l)
+        EXPECT_NEAR(phong[l], cosine[l] / kPi, kRounding);
+}
+
+TEST(ProjectZonal, GivesLegendrePolynomialsBack) {
+    const std::vector<double> expected = {0.3, -1.2, 0.7, 0.0, 2.5};
+    const auto function = [&](double z) {
+        double value = 0.0;
+        for (unsigned l = 0; l < expected.size(); ++l)
+            value += expected[l] * std::sqrt((2 * l + 1) / (4.0 * kPi)) * std::legendre(l, z);
+        return value;
+    };
+    const auto zonal = projectZonal(function, 7, 7);
+    for (std::size_t l = 0; l < zonal.size(); ++l)
+        EXPECT_NEAR(zonal[l], l < expected.size() ? expected[l] : 0.0, kRounding);
+}
+
+// Irradiance of some radiance, gathered direction by direction.
+TEST(ConvolveZonal, ByTheClampedCosineIsIrradiance) {
+    constexpr int kBandCount = 4;
+    std::vector<double> radiance(16);
+    for (std::size_t i = 0; i < radiance.size(); ++i)
+        radiance[i] = std::sin(3.0 * static_cast<double>(i) + 1.0);
+    std::vector<double> irradiance(16);
+    convolveZonal(clampedCosineZonal(kBandCount), radiance, irradiance);
+
+    // The clamp has a kink at the horizon: many nodes, and a tolerance.
+    const auto nodes = sphereQuadrature(600);
+    for (const Vec3d& normal :
+         {Vec3d(0.0, 0.0, 1.0), Vec3d(0.6, 0.0, -0.8), Vec3d(0.48, 0.6, 0.64)}) {
+        double gathered = 0.0;
+        for (const SphereNode& node : nodes)
+            gathered += node.weight * std::max(normal.dot(node.direction), 0.0) *
+                        reconstructSh(radiance, kBandCount, node.direction);
+        EXPECT_NEAR(reconstructSh(irradiance, kBandCount, normal), gathered, 1e-4);
+    }
+}
+
 }  // namespace
 }  // namespace prt
