@@ -47,11 +47,7 @@ void checkTransfer(const Scene& scene, const CompressedTransfer& transfer) {
                     [&](std::uint32_t receiver) { return receiver < transfer.receiverCount; }),
         "each vertex's receiver is one of the transfer");
     for (const CompressedLayer& layer : transfer.layers)
-        PRT_ASSERT(layer.data.rowCount() == transfer.receiverCount &&
-                       layer.data.columnCount() ==
-                           coefficientsPerReceiver(transfer.bandCount, layer.channelCount) &&
-                       layer.data.elementBytes() == bytesPerCoefficient(layer.encoding),
-                   "each layer has all coefficients of all receivers");
+        PRT_ASSERT(isComplete(transfer, layer), "each layer has all coefficients of all receivers");
 }
 
 /// Meshes without a triangle are not written.

@@ -86,9 +86,7 @@ struct Relighter::Blocks {
         const std::size_t rowBytes = bytesPerCoefficient(layer.encoding);
         PRT_ASSERT(bandCount >= 1 && bandCount <= kMaxBandCount, "a band count of the kernels");
         PRT_ASSERT(layer.channelCount == 1 || layer.channelCount == 3, "grey or coloured transfer");
-        PRT_ASSERT(layer.data.rowCount() == receiverCount && layer.data.columnCount() == rowCount &&
-                       layer.data.elementBytes() == bytesPerCoefficient(layer.encoding),
-                   "a vector a receiver");
+        PRT_ASSERT(isComplete(transfer, layer), "a vector a receiver");
         ranges = storedRanges(layer, rowCount);
 
         // Fill the last block up with zeros, then copy what there is.

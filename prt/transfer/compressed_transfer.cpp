@@ -57,6 +57,13 @@ const CompressedLayer* CompressedTransfer::findLayer(Transport transport) const 
     return found == layers.end() ? nullptr : &*found;
 }
 
+bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer) {
+    return layer.data.rowCount() == transfer.receiverCount &&
+           layer.data.columnCount() ==
+               coefficientsPerReceiver(transfer.bandCount, layer.channelCount) &&
+           layer.data.elementBytes() == bytesPerCoefficient(layer.encoding);
+}
+
 std::vector<float> expandLayer(const CompressedLayer& layer) {
     PRT_ASSERT(layer.data.elementBytes() == bytesPerCoefficient(layer.encoding),
                "the numbers are stored as the layer says");

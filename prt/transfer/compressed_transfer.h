@@ -42,6 +42,9 @@ struct CompressedTransfer {
     const CompressedLayer* findLayer(Transport transport) const;
 };
 
+/// Whether a layer has all coefficients of all receivers, stored as it says.
+bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer);
+
 /// Decodes a layer to floats, [receiver][channel][coefficient].
 std::vector<float> expandLayer(const CompressedLayer& layer);
 
