@@ -144,7 +144,7 @@ void writeLights(const SeedFolder& seeds) {
     prt::Lighting lighting(2);
     lighting.coefficients = {{3.5, 3.5, 3.5}, {1e-3, 0.0, -2.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}};
     for (const prt::ShConvention convention :
-         {prt::ShConvention::cs, prt::ShConvention::rh, prt::ShConvention::three})
+         {prt::ShConvention::cs, prt::ShConvention::rh, prt::ShConvention::unity})
         seeds.write("light_json", std::string(prt::shConventionName(convention)),
                     prt::lightingToJson(lighting, convention));
 }

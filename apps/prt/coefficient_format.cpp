@@ -11,21 +11,6 @@
 namespace prt::cli {
 namespace {
 
-std::string_view describeConvention(ShConvention convention) {
-    switch (convention) {
-        case ShConvention::cs:
-            return "cs: Condon-Shortley phase, right-handed axes";
-        case ShConvention::rh:
-            return "rh: no phase, left-handed axes with +z ahead [Ramamoorthi and Hanrahan 2001]";
-        case ShConvention::d3dx:
-            return "d3dx: Condon-Shortley phase, left-handed axes with +z ahead (D3DX, "
-                   "DirectXMath)";
-        case ShConvention::three:
-            return "three: no phase, right-handed axes (three.js SphericalHarmonics3)";
-    }
-    return {};
-}
-
 /// Six decimals, and never "-0.000000".
 double roundForTable(double value) {
     constexpr double kMillion = 1e6;
@@ -64,6 +49,9 @@ ArraySyntax arraySyntax(CoefficientFormat format, std::size_t count) {
     if (format == CoefficientFormat::glsl)
         return {fmt::format("const vec3 kLighting[{0}] = vec3[{0}](\n", count),
                 "    vec3({:#}, {:#}, {:#})", ");\n"};
+    if (format == CoefficientFormat::wgsl)
+        return {fmt::format("const kLighting = array<vec3<f32>, {}>(\n", count),
+                "    vec3<f32>({:#}, {:#}, {:#})", ");\n"};
     if (format == CoefficientFormat::hlsl)
         return {fmt::format("static const float3 kLighting[{}] = {{\n", count),
                 "    float3({:#}, {:#}, {:#})", "};\n"};
@@ -76,10 +64,10 @@ std::string formatArray(const Lighting& lighting, CoefficientFormat format,
     const std::size_t count = lighting.coefficients.size();
     const ArraySyntax syntax = arraySyntax(format, count);
     std::string text = fmt::format(
-        "// Radiance in {} bands of real orthonormal spherical harmonics; degree l, order m stands "
-        "at l(l+1)+m.\n"
-        "// Convention {}; polar axis z.\n{}",
-        lighting.bandCount, describeConvention(convention), syntax.head);
+        "// A light in {} bands of spherical harmonics; degree l, order m stands at l(l+1)+m.\n"
+        "// Convention {}: {}.\n{}",
+        lighting.bandCount, shConventionName(convention), describeShConvention(convention),
+        syntax.head);
     for (std::size_t i = 0; i < count; ++i) {
         const Vec3f value(lighting.coefficients[i]);
         text += fmt::format(fmt::runtime(syntax.element), value.x, value.y, value.z);
@@ -95,13 +83,14 @@ std::optional<CoefficientFormat> parseCoefficientFormat(std::string_view name) {
     if (name == "json") return CoefficientFormat::json;
     if (name == "glsl") return CoefficientFormat::glsl;
     if (name == "hlsl") return CoefficientFormat::hlsl;
+    if (name == "wgsl") return CoefficientFormat::wgsl;
     if (name == "c") return CoefficientFormat::c;
     return std::nullopt;
 }
 
 std::string formatCoefficients(const Lighting& lighting, CoefficientFormat format,
                                ShConvention convention) {
-    const Lighting converted = convert(lighting, convention);
+    const Lighting converted = convertTo(convention, lighting);
     switch (format) {
         case CoefficientFormat::table:
             return formatTable(converted);
@@ -109,6 +98,7 @@ std::string formatCoefficients(const Lighting& lighting, CoefficientFormat forma
             return lightingToJson(lighting, convention);
         case CoefficientFormat::glsl:
         case CoefficientFormat::hlsl:
+        case CoefficientFormat::wgsl:
         case CoefficientFormat::c:
             return formatArray(converted, format, convention);
     }

@@ -10,7 +10,7 @@
 namespace prt::cli {
 
 /// How lighting coefficients are written down.
-enum class CoefficientFormat { table, json, glsl, hlsl, c };
+enum class CoefficientFormat { table, json, c, glsl, hlsl, wgsl };
 
 std::optional<CoefficientFormat> parseCoefficientFormat(std::string_view name);
 

@@ -63,7 +63,7 @@ std::string lightingToJson(const Lighting& lighting, ShConvention convention) {
                        ", \"convention\": \"" + std::string(shConventionName(convention)) +
                        "\", \"coefficients\": [";
     const char* separator = "\n  ";
-    for (const Vec3d& c : convert(lighting, convention).coefficients) {
+    for (const Vec3d& c : convertTo(convention, lighting).coefficients) {
         PRT_ASSERT(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z),
                    "JSON holds finite numbers only");
         text += separator + json({c.x, c.y, c.z}).dump();
@@ -76,6 +76,11 @@ Lighting lightingFromJson(const std::string& text, const std::string& name) {
     const json document = parseObject(text, name);
     Lighting lighting(readBandCount(document, name));
     const ShConvention convention = readConvention(document, name);
+    if (lighting.bandCount > maxBandCount(convention))
+        fail("has " + std::to_string(lighting.bandCount) + " bands, more than the " +
+                 std::to_string(maxBandCount(convention)) + " of the convention \"" +
+                 std::string(shConventionName(convention)) + "\"",
+             name);
     const auto rows = document.find("coefficients");
     if (rows == document.end() || !rows->is_array() || rows->size() != lighting.coefficients.size())
         fail("does not have " + std::to_string(lighting.coefficients.size()) +
@@ -83,7 +88,7 @@ Lighting lightingFromJson(const std::string& text, const std::string& name) {
              name);
     for (std::size_t i = 0; i < lighting.coefficients.size(); ++i)
         lighting.coefficients[i] = readCoefficient((*rows)[i], i, name);
-    return convert(lighting, convention);
+    return convertFrom(convention, lighting);
 }
 
 }  // namespace prt

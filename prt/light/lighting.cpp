@@ -44,6 +44,10 @@ Lighting add(const Lighting& a, const Lighting& b) {
 }
 
 Lighting scale(const Lighting& lighting, double factor) {
+    return scale(lighting, Vec3d(factor));
+}
+
+Lighting scale(const Lighting& lighting, const Vec3d& factor) {
     Lighting scaled = lighting;
     for (Vec3d& coefficient : scaled.coefficients)
         coefficient *= factor;
@@ -69,9 +73,18 @@ Lighting truncate(const Lighting& lighting, int bandCount) {
     return truncated;
 }
 
-Lighting convert(const Lighting& lighting, ShConvention convention) {
+Lighting convertTo(ShConvention convention, const Lighting& lighting) {
     return changeChannels(lighting,
-                          [&](std::vector<double>& values) { convertSh(convention, values); });
+                          [&](std::vector<double>& values) { convertShTo(convention, values); });
+}
+
+Lighting convertFrom(ShConvention convention, const Lighting& lighting) {
+    return changeChannels(lighting,
+                          [&](std::vector<double>& values) { convertShFrom(convention, values); });
+}
+
+Lighting interpolate(const Lighting& a, const Lighting& b, double t) {
+    return add(scale(a, 1.0 - t), scale(b, t));
 }
 
 Vec3d reconstruct(const Lighting& lighting, const Vec3d& direction) {

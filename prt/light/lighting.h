@@ -30,6 +30,7 @@ Lighting rotate(const Lighting& lighting, const Mat3d& rotation);
 Lighting add(const Lighting& a, const Lighting& b);
 
 Lighting scale(const Lighting& lighting, double factor);
+Lighting scale(const Lighting& lighting, const Vec3d& factor);
 
 /// Each band times its factor.
 Lighting applyWindow(const Lighting& lighting, std::span<const double> factors);
@@ -37,8 +38,12 @@ Lighting applyWindow(const Lighting& lighting, std::span<const double> factors);
 /// The first n bands. @param bandCount  at most lighting.bandCount
 Lighting truncate(const Lighting& lighting, int bandCount);
 
-/// The coefficients in another convention; the same signs lead back to ours.
-Lighting convert(const Lighting& lighting, ShConvention convention);
+/// The coefficients in another convention, and back in ours (convertShTo, convertShFrom).
+Lighting convertTo(ShConvention convention, const Lighting& lighting);
+Lighting convertFrom(ShConvention convention, const Lighting& lighting);
+
+/// (1 − t) a + t b, for t in [0, 1]. Band counts must agree.
+Lighting interpolate(const Lighting& a, const Lighting& b, double t);
 
 /// The radiance that the coefficients stand for, in one direction.
 Vec3d reconstruct(const Lighting& lighting, const Vec3d& direction);

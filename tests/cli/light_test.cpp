@@ -75,11 +75,13 @@ TEST_F(CliLight, ASunHasTheValuesOfTheBasisInItsDirection) {
 TEST_F(CliLight, JsonIsReadBackAsTheSameLight) {
     writeText(folder.path() / "a.json", print({"sun:30,45,20", "--format", "json"}));
     expectNear(coefficients({"a.json"}), coefficients({"sun:30,45,20"}), kDoubleRounding);
-    for (const std::string convention : {"rh", "d3dx", "three"}) {
-        writeText(folder.path() / "b.json",
-                  print({"sun:30,45,20", "--format", "json", "--convention", convention}));
+    for (const std::string convention :
+         {"rh", "d3dx", "three", "filament", "unity", "godot", "3dgs"}) {
+        writeText(folder.path() / "b.json", print({"sun:30,45,20", "--format", "json", "--bands",
+                                                   "3", "--convention", convention}));
         EXPECT_EQ(Json::parse(readText(folder.path() / "b.json")).at("convention"), convention);
-        expectNear(coefficients({"b.json"}), coefficients({"sun:30,45,20"}), kDoubleRounding);
+        expectNear(coefficients({"b.json"}), coefficients({"sun:30,45,20", "--bands", "3"}),
+                   kDoubleRounding);
     }
 }
 
@@ -127,6 +129,11 @@ TEST_F(CliLight, ShaderArraysHoldEveryCoefficient) {
     EXPECT_TRUE(glsl.ends_with("    vec3(0.0, 0.0, 0.0)\n);\n")) << glsl;
     const std::string hlsl = print({"uniform:1,0,0", "--bands", "2", "--format", "hlsl"});
     EXPECT_NE(hlsl.find("float3(3.5449078, 0.0, 0.0)"), std::string::npos) << hlsl;
+    const std::string wgsl = print({"uniform:1,0,0", "--bands", "2", "--format", "wgsl"});
+    EXPECT_NE(
+        wgsl.find("const kLighting = array<vec3<f32>, 4>(\n    vec3<f32>(3.5449078, 0.0, 0.0),\n"),
+        std::string::npos)
+        << wgsl;
     const std::string c =
         print({"uniform:1,0,0", "--bands", "2", "--format", "c", "--convention", "d3dx"});
     EXPECT_NE(c.find("{3.5449078f, 0.0f, 0.0f}"), std::string::npos) << c;

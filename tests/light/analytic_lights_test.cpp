@@ -129,5 +129,60 @@ TEST(SunLighting, ExitRadianceAfterTruncationIsThePublishedOne) {
     }
 }
 
+TEST(SphereLighting, GivesTheIrradianceOfTheInverseSquareLaw) {
+    // A facing surface sees π (r/d)² of a sphere, whatever its distance [view factor of a sphere];
+    // 300 bands leave 1e-4 of the tail.
+    constexpr int kBandCount = 300;
+    const auto cosine = clampedCosineZonal(kBandCount);
+    for (const double distance : {1.5, 2.0, 5.0}) {
+        const Lighting sphere = sphereLighting(Vec3d(0, 0, distance), 1.0, Vec3d(1.0), kBandCount);
+        double irradiance = 0.0;
+        for (int l = 0; l < kBandCount; ++l)
+            irradiance += cosine[static_cast<std::size_t>(l)] *
+                          sphere.coefficients[static_cast<std::size_t>(shIndex(l, 0))].x;
+        EXPECT_NEAR(irradiance, kPi / (distance * distance), 1e-4);
+    }
+}
+
+TEST(SphereLighting, IsUniformFromInside) {
+    EXPECT_EQ(sphereLighting(Vec3d(0.1, 0, 0), 1.0, Vec3d(2.0), 3).coefficients,
+              uniformLighting(Vec3d(2.0), 3).coefficients);
+}
+
+TEST(HemisphereLighting, BlendsSkyAndGroundByTheNormal) {
+    const Vec3d up = Vec3d(1.0, 2.0, -2.0) / 3.0, sky(0.2, 0.4, 1.0), ground(0.3, 0.2, 0.1);
+    for (int bandCount = 2; bandCount <= 6; ++bandCount) {
+        const Lighting lighting = hemisphereLighting(up, sky, ground, bandCount);
+        for (const auto& [normal, weight] : sphereQuadrature(4)) {
+            const double t = 0.5 * (1.0 + normal.dot(up));
+            EXPECT_NEAR((relight(lighting, normal) - (sky * t + ground * (1.0 - t))).length(), 0.0,
+                        kFloatTolerance);
+        }
+    }
+}
+
+TEST(GradientLighting, GoesLinearlyFromBottomToTop) {
+    const Vec3d up = Vec3d(1.0, 2.0, -2.0) / 3.0, top(0.2, 0.4, 1.0), bottom(0.3, 0.2, 0.1);
+    for (int bandCount = 2; bandCount <= 4; ++bandCount) {
+        const Lighting lighting = gradientLighting(up, top, bottom, bandCount);
+        for (const auto& [direction, weight] : sphereQuadrature(4)) {
+            const double t = 0.5 * (1.0 + direction.dot(up));
+            EXPECT_NEAR(
+                (reconstruct(lighting, direction) - (top * t + bottom * (1.0 - t))).length(), 0.0,
+                kRounding);
+        }
+    }
+    EXPECT_EQ(gradientLighting(up, top, bottom, 1).coefficients,
+              uniformLighting((top + bottom) * 0.5, 1).coefficients);
+}
+
+TEST(DirectionalLighting, IsADeltaOfItsIrradiance) {
+    const Vec3d direction = Vec3d(2.0, -1.0, 2.0) / 3.0;
+    const Lighting light = directionalLighting(direction, Vec3d(3.0, 2.0, 1.0), 6);
+    EXPECT_NEAR(light.coefficients[0].x, 3.0 * 0.28209479177387814, kRounding);
+    // Σ_m y_lm² = (2l + 1) / 4π.
+    EXPECT_NEAR(reconstruct(light, direction).z, 36.0 / (4.0 * kPi), kRounding);
+}
+
 }  // namespace
 }  // namespace prt

@@ -58,6 +58,15 @@ TEST(Lighting, LightsAddAndScale) {
     EXPECT_EQ(reconstruct(Lighting(3), direction), Vec3d(0.0));
 }
 
+TEST(Lighting, InterpolationIsLinearBetweenItsEnds) {
+    const Lighting a = makeRandomLighting(3, 7), b = makeRandomLighting(3, 8);
+    const Vec3d direction(0.6, 0.0, 0.8);
+    EXPECT_EQ(interpolate(a, b, 0.0).coefficients, a.coefficients);
+    EXPECT_EQ(interpolate(a, b, 1.0).coefficients, b.coefficients);
+    expectNear(reconstruct(interpolate(a, b, 0.25), direction),
+               reconstruct(a, direction) * 0.75 + reconstruct(b, direction) * 0.25);
+}
+
 TEST(Lighting, WindowMultipliesEachBand) {
     const Lighting lighting = makeRandomLighting(3, 5);
     const Lighting windowed = applyWindow(lighting, std::vector<double>{1.0, 0.5, 0.25});
