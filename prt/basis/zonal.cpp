@@ -1,4 +1,6 @@
 // Bibliography
+//   [Amos74]         Computation of modified Bessel functions and their ratios
+//   [Fisher53]       Dispersion on a sphere: the Gaussian lobe
 //   [Ramamoorthi01]  An efficient representation for irradiance environment maps
 //   [Sloan08]        Stupid spherical harmonics tricks
 #include "prt/basis/zonal.h"
@@ -19,17 +21,6 @@ double zonalPeak(int l) {
     return std::sqrt((2 * l + 1) * 0.25 * std::numbers::inv_pi);
 }
 
-/// A_l of [Ramamoorthi01, eq. 7 and 8]: what the clamped cosine multiplies degree l by.
-double clampedCosineFactor(int l) {
-    if (l == 1) return 2.0 / 3.0 * std::numbers::pi;
-    if (l % 2 != 0) return 0.0;
-    double centralBinomial = 1.0;  // l! / (2^l (l/2)!²)
-    for (int k = 2; k <= l; k += 2)
-        centralBinomial *= (k - 1.0) / k;
-    const double sign = l % 4 == 0 ? -1.0 : 1.0;
-    return 2.0 * std::numbers::pi * sign / ((l + 2.0) * (l - 1.0)) * centralBinomial;
-}
-
 /// Multiplies each band of n² coefficients by a factor of its own.
 template <class Real, class FactorOf>
 void scaleBands(std::span<Real> coefficients, FactorOf factorOf) {
@@ -41,6 +32,17 @@ void scaleBands(std::span<Real> coefficients, FactorOf factorOf) {
 }
 
 }  // namespace
+
+double clampedCosineFactor(int l) {
+    PRT_ASSERT(l >= 0, "degrees count from 0");
+    if (l == 1) return 2.0 / 3.0 * std::numbers::pi;
+    if (l % 2 != 0) return 0.0;
+    double centralBinomial = 1.0;  // l! / (2^l (l/2)!²)
+    for (int k = 2; k <= l; k += 2)
+        centralBinomial *= (k - 1.0) / k;
+    const double sign = l % 4 == 0 ? -1.0 : 1.0;
+    return 2.0 * std::numbers::pi * sign / ((l + 2.0) * (l - 1.0)) * centralBinomial;
+}
 
 std::vector<double> clampedCosineZonal(int bandCount) {
     PRT_ASSERT(bandCount >= 1, "there is at least one band");
@@ -87,6 +89,29 @@ std::vector<double> phongZonal(int bandCount, double exponent) {
     std::vector<double> zonal;
     for (int l = 0; l < bandCount; ++l)
         zonal.push_back((exponent + 1.0) * zonalPeak(l) * integrals[static_cast<std::size_t>(l)]);
+    return zonal;
+}
+
+std::vector<double> gaussianZonal(int bandCount, double sharpness) {
+    PRT_ASSERT(bandCount >= 1, "there is at least one band");
+    PRT_ASSERT(sharpness >= 0.0 && std::isfinite(sharpness), "a lobe is not sharper than a point");
+
+    // r_l = i_l / i_(l−1) by its recurrence from above, which forgets its start: a guess between
+    // the bounds of [Amos74], made far enough up to lose its last digit.
+    const int start = bandCount + 64 + static_cast<int>(4.0 * std::sqrt(std::min(sharpness, 1e6)));
+    double ratio = sharpness / (start + std::hypot(start + 0.5, sharpness));
+    std::vector<double> ratios(static_cast<std::size_t>(bandCount), 1.0);
+    for (int l = start - 1; l >= 1; --l) {
+        ratio = sharpness / (2 * l + 1 + sharpness * ratio);
+        if (l < bandCount) ratios[static_cast<std::size_t>(l)] = ratio;
+    }
+
+    std::vector<double> zonal;
+    double product = 1.0;
+    for (int l = 0; l < bandCount; ++l) {
+        product *= ratios[static_cast<std::size_t>(l)];
+        zonal.push_back(zonalPeak(l) * product);
+    }
     return zonal;
 }
 

@@ -8,8 +8,11 @@
 
 namespace prt {
 
-/// Zonal coefficients of the clamped cosine, c_l = ∫ max(cos θ, 0) y_l0 dω, in closed form
-/// [Ramamoorthi01, eq. 7 and 8]: A_l √((2l+1)/4π) with A = π, 2π/3, π/4, 0, −π/24, …
+/// What irradiance multiplies degree l of radiance by, E_lm = A_l L_lm, in closed form
+/// [Ramamoorthi01, eq. 7 and 8]: π, 2π/3, π/4, 0, −π/24, 0, π/64, …
+double clampedCosineFactor(int l);
+
+/// Zonal coefficients of the clamped cosine, c_l = ∫ max(cos θ, 0) y_l0 dω = A_l √((2l+1)/4π).
 std::vector<double> clampedCosineZonal(int bandCount);
 
 /// Zonal coefficients of unit radiance from a disc of the given half angle about +z, in closed form
@@ -23,6 +26,13 @@ std::vector<double> capZonal(int bandCount, double halfAngleRadians);
 ///
 /// @param exponent  s ≥ 0; need not be whole
 std::vector<double> phongZonal(int bandCount, double exponent);
+
+/// Zonal coefficients of a Gaussian lobe of the sphere, λ/(2π (1 − e^(−2λ))) e^(λ (cos θ − 1)): its
+/// integral over the sphere is 1 [Fisher53]. They are √((2l+1)/4π) times a ratio of modified
+/// spherical Bessel functions, i_l(λ) / i_0(λ).
+///
+/// @param sharpness  λ ≥ 0, finite; 0 is the same everywhere, and 1/√λ radians its width
+std::vector<double> gaussianZonal(int bandCount, double sharpness);
 
 /// Zonal coefficients of any function of the angle to +z, z_l = 2π ∫ f(z) y_l0(z) dz, by
 /// Gauss-Legendre quadrature: exact for polynomials of degree 2·nodeCount − bandCount.

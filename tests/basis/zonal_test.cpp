@@ -47,6 +47,7 @@ TEST(ClampedCosineZonal, IsThePublishedTable) {
                               0.014317154020265984};
     const auto zonal = clampedCosineZonal(11);
     for (std::size_t l = 0; l < 11; ++l) {
+        EXPECT_NEAR(clampedCosineFactor(static_cast<int>(l)), factors[l], kRounding);
         EXPECT_NEAR(zonal[l] * std::sqrt(4.0 * kPi / (2.0 * static_cast<double>(l) + 1.0)),
                     factors[l], kRounding);
     }
@@ -163,6 +164,48 @@ TEST(PhongZonal, IsTheIntegralOfTheLobe) {
     const auto phong = phongZonal(10, 1.0);
     for (std::size_t l = 0; l < 10; ++l)
         EXPECT_NEAR(phong[l], cosine[l] / kPi, kRounding);
+}
+
+TEST(GaussianZonal, IsTheIntegralOfTheLobe) {
+    for (const double sharpness : {1e-9, 0.1, 1.0, 5.0, 20.0}) {
+        const auto lobe = [&](double z) {
+            return sharpness / (2.0 * kPi * -std::expm1(-2.0 * sharpness)) *
+                   std::exp(sharpness * (z - 1.0));
+        };
+        const auto zonal = gaussianZonal(12, sharpness);
+        for (int l = 0; l < 12; ++l)
+            EXPECT_NEAR(zonal[static_cast<std::size_t>(l)], integrateZonal(l, -1.0, lobe),
+                        kRounding)
+                << "sharpness " << sharpness << ", degree " << l;
+    }
+}
+
+TEST(GaussianZonal, HasTheClosedFormOfItsFirstDegrees) {
+    for (const double sharpness : {0.3, 2.0, 30.0, 300.0, 1e3, 1e4, 1e5, 1e6, 1e9}) {
+        // i_1/i_0 = coth λ − 1/λ, and i_2/i_0 = 1 − 3 (i_1/i_0)/λ.
+        const double first = 1.0 / std::tanh(sharpness) - 1.0 / sharpness;
+        const double second = 1.0 - 3.0 * first / sharpness;
+        const auto zonal = gaussianZonal(3, sharpness);
+        EXPECT_NEAR(zonal[0], std::sqrt(1.0 / (4.0 * kPi)), kRounding);
+        EXPECT_NEAR(zonal[1], std::sqrt(3.0 / (4.0 * kPi)) * first, kRounding) << sharpness;
+        EXPECT_NEAR(zonal[2], std::sqrt(5.0 / (4.0 * kPi)) * second, kRounding) << sharpness;
+    }
+}
+
+// λ = 0 is a constant, and λ → ∞ a directional light: 1 − l(l+1)/(2λ) of its zonal peak.
+TEST(GaussianZonal, RunsFromTheConstantToTheDirectionWithoutOverflow) {
+    const auto constant = gaussianZonal(6, 0.0);
+    EXPECT_NEAR(constant[0], std::sqrt(1.0 / (4.0 * kPi)), kRounding);
+    for (std::size_t l = 1; l < 6; ++l)
+        EXPECT_EQ(constant[l], 0.0);
+    for (const double sharpness : {1e8, 1e15, 1e100, 1e300}) {
+        const double secondOrder = 1e4 / (sharpness * sharpness);
+        const auto zonal = gaussianZonal(10, sharpness);
+        for (int l = 0; l < 10; ++l)
+            EXPECT_NEAR(zonal[static_cast<std::size_t>(l)] / std::sqrt((2 * l + 1) / (4.0 * kPi)),
+                        1.0 - l * (l + 1.0) / (2.0 * sharpness), kRounding + secondOrder)
+                << "sharpness " << sharpness << ", degree " << l;
+    }
 }
 
 TEST(ProjectZonal, GivesLegendrePolynomialsBack) {
