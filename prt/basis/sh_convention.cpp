@@ -4,7 +4,6 @@
 #include "prt/basis/sh_convention.h"
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -102,13 +101,9 @@ double conversionFactor(const ConventionTraits& traits, int l, int m) {
     switch (traits.content) {
         case Content::radianceOverPi:
             return sign * std::numbers::inv_pi;
-        case Content::reflectedPolynomial: {
-            const double cosine = clampedCosineZonal(3)[static_cast<std::size_t>(l)];
-            const double irradianceOverPi =
-                cosine * std::sqrt(4.0 * std::numbers::inv_pi / (2.0 * l + 1.0));
-            return sign * irradianceOverPi *
+        case Content::reflectedPolynomial:
+            return sign * clampedCosineFactor(l) * std::numbers::inv_pi *
                    kPolynomialFactors[static_cast<std::size_t>(shIndex(l, m))];
-        }
         case Content::radiance:
             break;
     }

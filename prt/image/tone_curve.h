@@ -17,6 +17,9 @@ float decodeSrgb8(std::uint8_t codeValue);
 inline float luminance(const Vec3f& rgb) {
     return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
 }
+inline double luminance(const Vec3d& rgb) {
+    return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z;
+}
 
 enum class ToneCurve {
     none,  ///< clamp to [0, 1]

@@ -93,8 +93,8 @@ class TexelSampler {
         for (int y = 0; y < image.height; ++y) {
             for (int x = 0; x < image.width; ++x) {
                 const Vec3f& radiance = image.at(x, y);
-                const float brightness =
-                    luminance({std::abs(radiance.x), std::abs(radiance.y), std::abs(radiance.z)});
+                const float brightness = luminance(
+                    Vec3f(std::abs(radiance.x), std::abs(radiance.y), std::abs(radiance.z)));
                 weights.push_back(
                     static_cast<double>(brightness) *
                     sphereTexel(environment.map, image.width, image.height, x, y).solidAngle);

@@ -9,6 +9,7 @@
 
 #include "prt/basis/sh.h"
 #include "prt/math/quadrature.h"
+#include "tests/support/published_probes.h"
 
 namespace prt {
 namespace {
@@ -151,20 +152,25 @@ TEST(ShConvention, AConversionLeadsBack) {
     }
 }
 
-// Two publications of the Grace Cathedral probe, from the same axes, differ
-// by the phase and one exposure.
-TEST(ShConvention, LeadsFromOnePublishedGraceCathedralToTheOther) {
-    constexpr double kPublishedRelativeError = 0.01;
-    const std::vector<double> rh = {.78908,  .39499,  -.33974, -.29213, -.11141,
-                                    -.26240, -.15570, .56014,  .21205};
-    const std::vector<double> d3dx = {10.153550, -5.060791, -4.349408, 3.761966, -1.427276,
-                                      3.347004,  -2.050089, -7.148068, 2.724446};
-    std::vector<double> converted = rh;
-    convertShFrom(ShConvention::rh, converted);
-    convertShTo(ShConvention::d3dx, converted);
-    const double exposure = dot(converted, d3dx) / dot(converted, converted);
-    for (std::size_t i = 0; i < rh.size(); ++i) {
-        EXPECT_NEAR(exposure * converted[i], d3dx[i], kPublishedRelativeError * d3dx[0]);
+// Two publications of the same five probes, from the same axes, differ by the phase and one
+// exposure each.
+TEST(ShConvention, LeadsFromOnePublicationOfFiveProbesToTheOther) {
+    constexpr double kPublishedRelativeRms = 0.005;
+    for (const PublishedProbe& probe : kPublishedProbes) {
+        double squaredError = 0.0, squaredSum = 0.0;
+        for (int channel = 0; channel < 3; ++channel) {
+            std::vector<double> converted;
+            for (const Vec3d& coefficient : probe.rh)
+                converted.push_back(coefficient[channel]);
+            convertShFrom(ShConvention::rh, converted);
+            convertShTo(ShConvention::d3dx, converted);
+            for (std::size_t i = 0; i < converted.size(); ++i) {
+                const double truth = probe.d3dx[i][channel];
+                squaredError += std::pow(probe.exposure * converted[i] - truth, 2.0);
+                squaredSum += truth * truth;
+            }
+        }
+        EXPECT_LT(std::sqrt(squaredError / squaredSum), kPublishedRelativeRms) << probe.name;
     }
 }
 
