@@ -14,6 +14,7 @@ namespace prt::cli {
 /// The forms of LIGHT, for --help.
 inline constexpr const char* kLightHelp = R"(LIGHT is one of
   FILE.exr .hdr .png .jpg  an environment: lat-long, angular map, cross or strip, told by its shape;
+                           an octahedral map with --map;
                            or a folder with six faces px nx py ny pz nz
   uniform:r,g,b            the same radiance from everywhere (uniform:v for grey)
   sun:azimuth,elevation,angle

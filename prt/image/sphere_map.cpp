@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "prt/base/assert.h"
+#include "prt/image/octahedral_map.h"
 #include "prt/math/quadrature.h"
 
 namespace prt {
@@ -24,13 +25,14 @@ struct SphereMapTraits {
     int rowCount;
 };
 
-constexpr std::array<SphereMapTraits, 6> kSphereMaps = {{
+constexpr std::array<SphereMapTraits, 7> kSphereMaps = {{
     {SphereMap::latLong, "lat-long", 2, 1},
     {SphereMap::angularMap, "angular-map", 1, 1},
     {SphereMap::verticalCross, "vertical-cross", 3, 4},
     {SphereMap::horizontalCross, "horizontal-cross", 4, 3},
     {SphereMap::verticalStrip, "vertical-strip", 1, 6},
     {SphereMap::horizontalStrip, "horizontal-strip", 6, 1},
+    {SphereMap::octahedral, "octahedral", 1, 1},
 }};
 
 const SphereMapTraits& traitsOf(SphereMap map) {
@@ -43,7 +45,7 @@ bool fits(const SphereMapTraits& traits, int width, int height) {
 }
 
 void checkShape(SphereMap map, int width, int height) {
-    PRT_ASSERT(fits(traitsOf(map), width, height), "the image has the shape of its map");
+    PRT_ASSERT(fitsSphereMap(map, width, height), "the image has the shape of its map");
 }
 
 /// std::hypot without its care for overflow, which unit lengths do not
@@ -285,6 +287,8 @@ Footprint footprintOf(SphereMap map, int width, int height, const Vec3f& directi
     if (map == SphereMap::latLong) {
         return {latLongPixel(width, height, direction), 0, 0, width - 1, height - 1};
     }
+    if (map == SphereMap::octahedral)
+        return {octahedralPixel(width, direction), 0, 0, width - 1, height - 1};
     if (map == SphereMap::angularMap) {
         // Keep a texel's diagonal from the rim, so that the texel hit has its centre in the disc.
         const double maxRadius = std::max(1.0 - std::numbers::sqrt2 / width, 0.0);
@@ -294,6 +298,14 @@ Footprint footprintOf(SphereMap map, int width, int height, const Vec3f& directi
     const auto [face, pixel] = facePixelFromDirection(map, faceSize, direction);
     const int minX = face.column * faceSize, minY = face.row * faceSize;
     return {pixel, minX, minY, minX + faceSize - 1, minY + faceSize - 1};
+}
+
+/// The texel of a footprint that stands for one that may lie just outside.
+TexelIndex bringInside(SphereMap map, int width, const Footprint& footprint, int x, int y) {
+    if (map == SphereMap::octahedral) return wrapOctahedral(width, x, y);
+    return {map == SphereMap::latLong ? (x + width) % width
+                                      : std::clamp(x, footprint.minX, footprint.maxX),
+            std::clamp(y, footprint.minY, footprint.maxY)};
 }
 
 }  // namespace
@@ -307,6 +319,10 @@ std::optional<SphereMap> parseSphereMap(std::string_view name) {
         if (traits.name == name) return traits.map;
     }
     return std::nullopt;
+}
+
+bool fitsSphereMap(SphereMap map, int width, int height) {
+    return fits(traitsOf(map), width, height);
 }
 
 std::optional<SphereMap> recogniseSphereMap(int width, int height) {
@@ -324,6 +340,8 @@ SphereTexel sphereTexel(SphereMap map, int width, int height, int x, int y) {
             return latLongTexel(width, height, x, y);
         case SphereMap::angularMap:
             return angularTexel(width, x, y);
+        case SphereMap::octahedral:
+            return octahedralTexel(width, x, y);
         default:
             return cubeTexel(map, width / traitsOf(map).columnCount, x, y);
     }
@@ -336,6 +354,8 @@ SpherePlace spherePlace(SphereMap map, int width, int height, double x, double y
             return latLongPlace(width, height, x, y);
         case SphereMap::angularMap:
             return angularPlace(width, x, y);
+        case SphereMap::octahedral:
+            return octahedralPlace(width, x, y);
         default:
             return cubePlace(map, width / traitsOf(map).columnCount, x, y);
     }
@@ -348,6 +368,8 @@ Vec2f pixelFromDirection(SphereMap map, int width, int height, const Vec3f& dire
             return latLongPixel(width, height, direction);
         case SphereMap::angularMap:
             return angularPixel(width, direction, 1.0);
+        case SphereMap::octahedral:
+            return octahedralPixel(width, direction);
         default:
             return facePixelFromDirection(map, width / traitsOf(map).columnCount, direction).pixel;
     }
@@ -366,10 +388,10 @@ std::array<WeightedTexel, 4> bilinearTexels(SphereMap map, int width, int height
     for (int i = 0; i < 4; ++i) {
         const int column = i % 2, row = i / 2;
         WeightedTexel& texel = texels[static_cast<std::size_t>(i)];
-        texel.x = static_cast<int>(left) + column;
-        texel.x = map == SphereMap::latLong ? (texel.x + width) % width
-                                            : std::clamp(texel.x, footprint.minX, footprint.maxX);
-        texel.y = std::clamp(static_cast<int>(top) + row, footprint.minY, footprint.maxY);
+        const auto [x, y] = bringInside(map, width, footprint, static_cast<int>(left) + column,
+                                        static_cast<int>(top) + row);
+        texel.x = x;
+        texel.y = y;
         texel.weight = (column == 1 ? rightWeight : 1.0f - rightWeight) *
                        (row == 1 ? bottomWeight : 1.0f - bottomWeight);
         if (map == SphereMap::angularMap && !isInDisc(width, texel.x, texel.y)) texel.weight = 0.0f;

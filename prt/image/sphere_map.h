@@ -19,10 +19,14 @@ enum class SphereMap {
     verticalStrip,  ///< 1:6; faces +x −x +y −y +z −z as OpenGL samples them: seen from inside, each
                     ///< is mirrored
     horizontalStrip,  ///< 6:1; the same
+    octahedral,  ///< square; centre +y, corners −y, middles of the edges right +x, left −x, top +z,
+                 ///< bottom −z [Engelhardt08]
 };
 
 std::string_view sphereMapName(SphereMap map);
 std::optional<SphereMap> parseSphereMap(std::string_view name);
+
+bool fitsSphereMap(SphereMap map, int width, int height);
 
 /// The map whose shape fits, or nothing. Square images are angular maps.
 std::optional<SphereMap> recogniseSphereMap(int width, int height);
@@ -35,8 +39,9 @@ struct SphereTexel {
 
 /// The direction and the exact solid angle of a texel.
 ///
-/// Exact for lat-long rows (the difference of two cosines) and cube faces (the arctangent form of
-/// [Arvo95]); angular maps are integrated by quadrature inside the texel, to a relative 1e-4.
+/// Exact for lat-long rows (the difference of two cosines), cube faces (the arctangent form of
+/// [Arvo95]) and octahedral maps (triangles [VanOosterom83]); angular maps are integrated by
+/// quadrature inside the texel, to a relative 1e-4.
 /// Texels show nothing in the empty cells of crosses, and where their centre lies outside the disc
 /// of an angular map.
 SphereTexel sphereTexel(SphereMap map, int width, int height, int x, int y);
@@ -66,7 +71,8 @@ struct WeightedTexel {
 
 /// The texels around a direction with their bilinear weights, which sum to 1.
 ///
-/// Wraps round lat-long maps, stays on one face of a cube, and inside the disc of an angular map.
+/// Wraps round lat-long maps and across the edges of octahedral ones, stays on one face of a cube,
+/// and inside the disc of an angular map.
 std::array<WeightedTexel, 4> bilinearTexels(SphereMap map, int width, int height,
                                             const Vec3f& direction);
 

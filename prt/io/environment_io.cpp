@@ -81,8 +81,9 @@ Image readFaces(const fs::path& folder, const ImageLimits& limits) {
 }
 
 SphereMap chooseMap(const Image& image, std::optional<SphereMap> wanted, const std::string& name) {
+    if (wanted && fitsSphereMap(*wanted, image.width, image.height)) return *wanted;
     const std::optional<SphereMap> recognised = recogniseSphereMap(image.width, image.height);
-    if (recognised && (!wanted || wanted == recognised)) return *recognised;
+    if (recognised && !wanted) return *recognised;
     const std::string shape =
         "has " + std::to_string(image.width) + " × " + std::to_string(image.height) + " pixels, ";
     if (wanted)
@@ -91,7 +92,8 @@ SphereMap chooseMap(const Image& image, std::optional<SphereMap> wanted, const s
             shape + "which is not the shape of the layout " + std::string(sphereMapName(*wanted)),
             name);
     throw Error(ErrorCode::malformed, shape + "the shape of no environment layout", name,
-                "lat-long images are 2 : 1, angular maps square, crosses 3 : 4 or 4 : 3, strips "
+                "lat-long images are 2 : 1, angular and octahedral maps square, crosses 3 : 4 or 4 "
+                ": 3, strips "
                 "1 : 6 or 6 : 1");
 }
 

@@ -23,7 +23,8 @@ struct Shape {
 
 constexpr Shape kShapes[] = {{SphereMap::latLong, 2, 1},       {SphereMap::angularMap, 1, 1},
                              {SphereMap::verticalCross, 3, 4}, {SphereMap::horizontalCross, 4, 3},
-                             {SphereMap::verticalStrip, 1, 6}, {SphereMap::horizontalStrip, 6, 1}};
+                             {SphereMap::verticalStrip, 1, 6}, {SphereMap::horizontalStrip, 6, 1},
+                             {SphereMap::octahedral, 1, 1}};
 
 bool isStrip(SphereMap map) {
     return map == SphereMap::verticalStrip || map == SphereMap::horizontalStrip;
@@ -36,7 +37,8 @@ double angleBetween(const Vec3d& a, const Vec3d& b) {
 TEST(SphereMap, NamesLeadBackAndShapesAreRecognised) {
     for (const auto& [map, columnCount, rowCount] : kShapes) {
         EXPECT_EQ(parseSphereMap(sphereMapName(map)), map);
-        EXPECT_EQ(recogniseSphereMap(32 * columnCount, 32 * rowCount), map);
+        const SphereMap recognised = map == SphereMap::octahedral ? SphereMap::angularMap : map;
+        EXPECT_EQ(recogniseSphereMap(32 * columnCount, 32 * rowCount), recognised);
     }
     EXPECT_EQ(parseSphereMap("octahedron"), std::nullopt);
     for (const auto& [width, height] : {std::pair(0, 0), {3, 2}, {33, 16}, {30, 41}, {-2, -1}}) {
@@ -64,6 +66,22 @@ TEST(Conventions, C4_LatLongImagesAreCentredOnXWithZToTheRightAndYUp) {
         angleBetween(texel.direction, Vec3d(std::sin(polar) * std::cos(azimuth), std::cos(polar),
                                             std::sin(polar) * std::sin(azimuth))),
         0.0, 1e-15);
+}
+
+TEST(Conventions, C4_OctahedralImagesShowUpInTheMiddleXToTheRightAndZAtTheTop) {
+    constexpr float kFloatRounding = 1e-4f;
+    const struct {
+        Vec3f direction;
+        Vec2f uv;
+    } table[] = {{{0, 1, 0}, {0.5f, 0.5f}},       {{1, 0, 0}, {1.0f, 0.5f}},
+                 {{-1, 0, 0}, {0.0f, 0.5f}},      {{0, 0, 1}, {0.5f, 0.0f}},
+                 {{0, 0, -1}, {0.5f, 1.0f}},      {{1e-6f, -1, 1e-6f}, {1.0f, 0.0f}},
+                 {{0.5f, 0, 0.5f}, {.75f, .25f}}, {{-1e-6f, -1, -1e-6f}, {0.0f, 1.0f}}};
+    for (const auto& [direction, uv] : table) {
+        const Vec2f pixel = pixelFromDirection(SphereMap::octahedral, 64, 64, direction);
+        EXPECT_NEAR(pixel.x, 64 * uv.x, kFloatRounding);
+        EXPECT_NEAR(pixel.y, 64 * uv.y, kFloatRounding);
+    }
 }
 
 // The layouts, cell by cell, as the formats define them: what the middle of each cell looks at.
@@ -194,7 +212,7 @@ TEST(SphereMap, PixelFromDirectionIsTheInverseOfTexelDirection) {
                 ++texelCount;
             }
         }
-        EXPECT_GT(texelCount, map == SphereMap::angularMap ? 700 : 2000);
+        EXPECT_GT(texelCount, columnCount * rowCount == 1 ? 700 : 2000);
     }
 }
 
@@ -263,6 +281,16 @@ TEST(SphereMap, CubeTexelsHaveThePublishedSolidAngles) {
                 kPrintedPrecision);
     EXPECT_NEAR(sphereTexel(SphereMap::verticalStrip, 8, 48, 3, 3).solidAngle, .0588575059,
                 kPrintedPrecision);
+}
+
+TEST(SphereMap, EachQuarterOfAnOctahedralMapIsTwoOctants) {
+    for (const int size : {2, 6, 10}) {
+        double sum = 0.0;
+        for (int y = 0; y < size / 2; ++y)
+            for (int x = 0; x < size / 2; ++x)
+                sum += sphereTexel(SphereMap::octahedral, size, size, x, y).solidAngle;
+        EXPECT_NEAR(sum, kPi, 1e-13) << size;
+    }
 }
 
 /// The solid angle of an angular-map texel as a plain sum over many points.
@@ -352,6 +380,31 @@ TEST(BilinearTexels, WrapRoundALatLongMap) {
         (x == 0 ? left : right) += weight;
     EXPECT_FLOAT_EQ(left, 0.5f);
     EXPECT_FLOAT_EQ(right, 0.5f);
+}
+
+TEST(BilinearTexels, OfAnOctahedralMapKnowNoSeam) {
+    constexpr int kSize = 64;
+    constexpr double kGap = 1e-5;
+    constexpr double kFloatRounding = 1e-4;
+    const auto meanDirection = [](const Vec3d& direction) {
+        Vec3d mean(0.0);
+        for (const auto& [x, y, weight] :
+             bilinearTexels(SphereMap::octahedral, kSize, kSize, Vec3f(direction)))
+            mean += sphereTexel(SphereMap::octahedral, kSize, kSize, x, y).direction * weight;
+        return mean;
+    };
+    RandomStream random(8, 0);
+    for (int i = 0; i < 500; ++i) {
+        // Pairs of directions on either side of a cut, a half plane below one of the axes.
+        const double angle = 0.02 + (kPi - 0.04) * random.nextUnitDouble();
+        const double along = std::cos(angle), down = -std::sin(angle);
+        for (const auto& [a, b] :
+             {std::pair(Vec3d(kGap, down, along), Vec3d(-kGap, down, along)),
+              std::pair(Vec3d(along, down, kGap), Vec3d(along, down, -kGap))}) {
+            EXPECT_LT((meanDirection(a) - meanDirection(b)).length(), 20 * kGap + kFloatRounding);
+            EXPECT_LT(angleBetween(meanDirection(a), a), 0.5 * kPi / kSize);
+        }
+    }
 }
 
 }  // namespace

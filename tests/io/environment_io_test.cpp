@@ -35,6 +35,16 @@ TEST(EnvironmentIo, LayoutIsRecognisedByShape) {  // C4
     }
 }
 
+TEST(EnvironmentIo, SquareImagesAreOctahedralWhereWanted) {  // C4
+    const TemporaryFolder folder;
+    const auto square = writeImage(folder, "env.exr", constantImage(4, 4, 1.0f));
+    EXPECT_EQ(loadEnvironment(square, SphereMap::octahedral).environment.map,
+              SphereMap::octahedral);
+    const auto latLong = writeImage(folder, "wide.exr", constantImage(8, 4, 1.0f));
+    EXPECT_EQ(catchError([&] { loadEnvironment(latLong, SphereMap::octahedral); }).code(),
+              ErrorCode::malformed);
+}
+
 TEST(EnvironmentIo, OtherShapesAreRefused) {
     const TemporaryFolder folder;
     const auto odd = writeImage(folder, "odd.exr", constantImage(7, 3, 1.0f));

@@ -8,45 +8,18 @@
 #include <numbers>
 #include <utility>
 
+#include "drawn_environment.h"
 #include "prt/base/random.h"
 
 namespace prt {
 namespace {
 
+using test::draw;
+using test::kShapes;
+using test::maxDifference;
+using test::Shape;
+
 constexpr double kPi = std::numbers::pi;
-
-struct Shape {
-    SphereMap map;
-    int columnCount;
-    int rowCount;
-};
-
-constexpr Shape kShapes[] = {{SphereMap::latLong, 2, 1},       {SphereMap::angularMap, 1, 1},
-                             {SphereMap::verticalCross, 3, 4}, {SphereMap::horizontalCross, 4, 3},
-                             {SphereMap::verticalStrip, 1, 6}, {SphereMap::horizontalStrip, 6, 1}};
-
-/// Draws a function of direction; what a map does not show stays NaN,
-/// so that its use would be seen.
-template <class Function>
-Environment draw(const Shape& shape, int cellSize, Function radiance) {
-    const int width = shape.columnCount * cellSize, height = shape.rowCount * cellSize;
-    Environment environment{shape.map, Image(width, height, Vec3f(std::nanf("")))};
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const SphereTexel texel = sphereTexel(shape.map, width, height, x, y);
-            if (texel.solidAngle > 0.0) environment.radiance.at(x, y) = radiance(texel.direction);
-        }
-    }
-    return environment;
-}
-
-double maxDifference(const Lighting& a, const Lighting& b) {
-    double difference = 0.0;
-    for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
-        difference = std::max(difference, (a.coefficients[i] - b.coefficients[i]).length());
-    }
-    return difference;
-}
 
 // T-31
 TEST(ProjectLighting, AConstantEnvironmentHasItsMeanAndNothingElse) {

@@ -136,6 +136,7 @@ TEST(EnvironmentLight, HoldsTheLightOfItsTexelsInEveryLayout) {
         {SphereMap::latLong, 32, 16},       {SphereMap::angularMap, 32, 32},
         {SphereMap::verticalCross, 24, 32}, {SphereMap::horizontalCross, 32, 24},
         {SphereMap::verticalStrip, 8, 48},  {SphereMap::horizontalStrip, 48, 8},
+        {SphereMap::octahedral, 32, 32},
     };
     for (const auto& [map, width, height] : kLayouts) {
         const Environment environment = makeEnvironment(map, width, height);
