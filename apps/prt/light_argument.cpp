@@ -15,6 +15,7 @@
 #include "prt/base/file.h"
 #include "prt/io/environment_io.h"
 #include "prt/light/analytic_lights.h"
+#include "prt/light/resampling.h"
 
 namespace prt::cli {
 namespace {
@@ -71,26 +72,13 @@ LightSource readEnvironment(const std::string& path, int bandCount, std::optiona
             {}};
 }
 
-/// The environment turned as rotate() turns its coefficients: L(R⁻¹ω).
-Environment rotateEnvironment(const Environment& environment, const Mat3d& rotation) {
-    const int height = std::clamp(environment.radiance.height, 256, 2048);
-    Environment rotated{SphereMap::latLong, Image(2 * height, height, Vec3f(0.0f))};
-    const Mat3d inverse = rotation.transposed();
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < 2 * height; ++x) {
-            const Vec3d direction =
-                sphereTexel(SphereMap::latLong, 2 * height, height, x, y).direction;
-            rotated.radiance.at(x, y) = lookUpRadiance(environment, Vec3f(inverse * direction));
-        }
-    return rotated;
-}
-
 }  // namespace
 
 std::string sphereMapNames() {
     constexpr std::array kMaps = {SphereMap::latLong,       SphereMap::angularMap,
                                   SphereMap::verticalCross, SphereMap::horizontalCross,
-                                  SphereMap::verticalStrip, SphereMap::horizontalStrip};
+                                  SphereMap::verticalStrip, SphereMap::horizontalStrip,
+                                  SphereMap::octahedral};
     std::vector<std::string_view> names;
     for (const SphereMap map : kMaps)
         names.push_back(sphereMapName(map));
@@ -141,7 +129,8 @@ Environment makeBackground(const LightSource& light, const Mat3d& rotation) {
         return {SphereMap::latLong,
                 reconstructLatLong(rotate(light.lighting, rotation), kReconstructionWidth)};
     if (rotation == Mat3d()) return *light.environment;
-    return rotateEnvironment(*light.environment, rotation);
+    const int height = std::clamp(light.environment->radiance.height, 256, 2048);
+    return rotate(*light.environment, rotation, SphereMap::latLong, 2 * height, height);
 }
 
 }  // namespace prt::cli
