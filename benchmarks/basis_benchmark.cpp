@@ -86,17 +86,75 @@ void evaluateSingly(benchmark::State& state) {
 }
 BENCHMARK(evaluateSingly)->Name("sh/one_direction")->Arg(3)->Arg(5)->Arg(10)->Arg(32);
 
-void rotateCoefficients(benchmark::State& state) {
+const Mat3d kRotation = rotationAbout(Vec3d(2.0, -1.0, 2.0) / 3.0, 0.7);
+
+/// The general rotation: a matrix by recurrence.
+void rotateByMatrix(benchmark::State& state) {
     const int bandCount = static_cast<int>(state.range(0));
-    const Mat3d rotation = rotationAbout(Vec3d(2.0, -1.0, 2.0) / 3.0, 0.7);
     std::vector<double> source(static_cast<std::size_t>(shCoefficientCount(bandCount)), 1.0);
     std::vector<double> rotated(source.size());
     for (auto _ : state) {
-        ShRotation(rotation, bandCount).apply(source, rotated);
+        ShRotation(kRotation, bandCount).apply(source, rotated);
         benchmark::ClobberMemory();
     }
 }
-BENCHMARK(rotateCoefficients)->Name("sh/rotation_with_setup")->Arg(3)->Arg(5)->Arg(6)->Arg(10);
+BENCHMARK(rotateByMatrix)->Name("sh/rotation_by_matrix")->Arg(3)->Arg(5)->Arg(6)->Arg(10);
+
+/// One rotation, set-up included.
+void rotateChannels(benchmark::State& state, std::size_t channelCount) {
+    const int bandCount = static_cast<int>(state.range(0));
+    const auto channelSize = static_cast<std::size_t>(shCoefficientCount(bandCount));
+    std::vector<float> source(channelCount * channelSize, 1.0f), rotated(source.size());
+    Mat3d rotation = kRotation;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(rotation);
+        rotateSh(rotation, bandCount, source, rotated);
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK_CAPTURE(rotateChannels, 1, 1)
+    ->Name("sh/rotation/1_channel")
+    ->Arg(3)
+    ->Arg(5)
+    ->Arg(6)
+    ->Arg(10);
+BENCHMARK_CAPTURE(rotateChannels, 3, 3)
+    ->Name("sh/rotation/3_channels")
+    ->Arg(3)
+    ->Arg(5)
+    ->Arg(6)
+    ->Arg(10);
+
+/// 16 rotations of 16 functions, or of one.
+void rotateBatches(benchmark::State& state, std::size_t functionCount) {
+    const int bandCount = static_cast<int>(state.range(0));
+    const auto count = static_cast<std::size_t>(shCoefficientCount(bandCount));
+    std::array<float, 9 * kShBatchSize> rotations{};
+    for (std::size_t i = 0; i < rotations.size(); ++i) {
+        const std::size_t entry = i / kShBatchSize;
+        rotations[i] = static_cast<float>(kRotation.getValue()[entry]);
+    }
+    std::vector<float> source(functionCount * count, 1.0f), rotated(kShBatchSize * count);
+    for (auto _ : state) {
+        rotateShBatch(rotations, bandCount, source, rotated);
+        benchmark::ClobberMemory();
+    }
+    state.counters["seconds_per_rotation"] =
+        benchmark::Counter(static_cast<double>(state.iterations()) * kShBatchSize,
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK_CAPTURE(rotateBatches, own, kShBatchSize)
+    ->Name("sh/16_rotations/own_source")
+    ->Arg(3)
+    ->Arg(5)
+    ->Arg(6)
+    ->Arg(10);
+BENCHMARK_CAPTURE(rotateBatches, shared, 1)
+    ->Name("sh/16_rotations/shared_source")
+    ->Arg(3)
+    ->Arg(5)
+    ->Arg(6)
+    ->Arg(10);
 
 Environment makeEnvironment(SphereMap map, int width, int height) {
     RandomStream random(1, 0);
