@@ -39,6 +39,12 @@ std::string lowerSuffix(const std::string& path);
 /// @throws Error  invalidOption if the path does not end in one of the suffixes ".png .exr"
 void requireSuffix(const std::string& path, std::string_view suffixes);
 
+/// A command line that would do the same again, without the option that says where to.
+///
+/// @param start  the words before the options
+std::string describeCommand(const std::string& start, const CLI::App& command,
+                            std::string_view outputOption);
+
 /// Adds an option whose text `parse` turns into an optional value; without one it is wrong usage.
 ///
 /// @param expected  what the option takes, for the help and the error: "none|aces"

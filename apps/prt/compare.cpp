@@ -243,18 +243,6 @@ void runCompare(const CompareArguments& arguments) {
                     (std::filesystem::path(arguments.output) / "index.html").string());
 }
 
-/// The command line without its output, which does not change what the report says.
-std::string describeCommand(const std::string& asset, const CLI::App& command) {
-    std::string line = "prt compare " + asset;
-    for (const CLI::Option* option : command.get_options()) {
-        if (option->get_lnames().empty() || option->get_lnames().front() == "output") continue;
-        const bool isFlag = option->get_expected_min() == 0;
-        for (const std::string& value : option->results())
-            line += fmt::format(" --{}{}", option->get_lnames().front(), isFlag ? "" : " " + value);
-    }
-    return line;
-}
-
 constexpr const char* kFooter =
     R"(Examples: prt compare statue.prt.glb --light museum.exr -o report
           prt compare slab.prt.glb --light sun:30,60,0 --light sun:30,60,20 --band-counts 2:10 -o report
@@ -303,7 +291,7 @@ void addCompareCommand(CLI::App& app) {
     addPixelLimit(*command, arguments->limits);
 
     command->callback([arguments, command] {
-        arguments->command = describeCommand(arguments->asset, *command);
+        arguments->command = describeCommand("prt compare " + arguments->asset, *command, "output");
         runCompare(*arguments);
     });
 }

@@ -15,6 +15,7 @@
 #include "prt/base/file.h"
 #include "prt/io/environment_io.h"
 #include "prt/light/analytic_lights.h"
+#include "prt/light/clear_sky.h"
 #include "prt/light/resampling.h"
 
 namespace prt::cli {
@@ -24,6 +25,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kUniformPrefix = "uniform:";
 constexpr std::string_view kSunPrefix = "sun:";
+constexpr std::string_view kSkyPrefix = "sky:";
+constexpr std::string_view kDaylightPrefix = "daylight:";
 
 [[noreturn]] void throwMalformed(const std::string& argument, const std::string& expected) {
     throw Error(ErrorCode::invalidOption, "is not " + expected, argument, "see prt light --help");
@@ -39,6 +42,13 @@ Lighting parseUniform(const std::string& argument, int bandCount) {
 }
 
 /// Azimuth runs as u of a lat-long image does (C4).
+Vec3d directionFromDegrees(double azimuth, double elevation) {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    return {std::cos(elevation * kDegree) * std::cos(azimuth * kDegree),
+            std::sin(elevation * kDegree),
+            std::cos(elevation * kDegree) * std::sin(azimuth * kDegree)};
+}
+
 Sun parseSun(const std::string& argument) {
     const std::optional<Vec3d> degrees =
         parseTriple(std::string_view(argument).substr(kSunPrefix.size()));
@@ -46,10 +56,27 @@ Sun parseSun(const std::string& argument) {
         throwMalformed(argument,
                        "sun:azimuth,elevation,angle in degrees with elevation in [-90, 90] and "
                        "angle in [0, 360]");
-    const Vec3d radians = *degrees * (std::numbers::pi / 180.0);
-    const Vec3d direction(std::cos(radians.y) * std::cos(radians.x), std::sin(radians.y),
-                          std::cos(radians.y) * std::sin(radians.x));
-    return {direction, 0.5 * radians.z};
+    return {directionFromDegrees(degrees->x, degrees->y), degrees->z * std::numbers::pi / 360.0};
+}
+
+ClearSky parseSky(const std::string& argument, std::string_view prefix) {
+    constexpr const char* kUsualTurbidity = ",3";
+    std::string numbers = argument.substr(prefix.size());
+    if (std::count(numbers.begin(), numbers.end(), ',') == 1) numbers += kUsualTurbidity;
+    const std::optional<Vec3d> values = parseTriple(numbers);
+    if (!values || values->y < 0.0 || values->y > 90.0 || values->z < ClearSky::kMinTurbidity ||
+        values->z > ClearSky::kMaxTurbidity)
+        throwMalformed(argument, std::string(prefix) +
+                                     "azimuth,elevation[,turbidity] with degrees, elevation in [0, "
+                                     "90] and turbidity in [2, 10]");
+    return ClearSky(directionFromDegrees(values->x, values->y), values->z);
+}
+
+LightSource makeSky(const ClearSky& sky, bool withSun, int bandCount) {
+    // A texel of the larger picture is smaller than the sun.
+    const int width = withSun ? 2048 : 512;
+    return {.lighting = withSun ? daylightLighting(sky, bandCount) : skyLighting(sky, bandCount),
+            .environment = drawSky(sky, width, withSun)};
 }
 
 Lighting readCoefficients(const std::string& path, int bandCount) {
@@ -64,7 +91,7 @@ LightSource readEnvironment(const std::string& path, int bandCount, std::optiona
                             const ImageLimits& limits) {
     const bool looksLikePrefix = path.find(':') != std::string::npos && !fs::exists(path);
     if (looksLikePrefix)
-        throwMalformed(path, "a file, uniform:r,g,b or sun:azimuth,elevation,angle");
+        throwMalformed(path, "a file, or one of uniform: sun: sky: daylight: with its numbers");
     LoadedEnvironment loaded = loadEnvironment(path, map, limits);
     return {projectLighting(loaded.environment, bandCount),
             std::move(loaded.environment),
@@ -89,8 +116,10 @@ LightSource loadLight(const std::string& argument, int bandCount, std::optional<
                       const ImageLimits& limits) {
     const bool isUniform = argument.starts_with(kUniformPrefix);
     const bool isSun = argument.starts_with(kSunPrefix);
+    const bool isSky = argument.starts_with(kSkyPrefix);
+    const bool isDaylight = argument.starts_with(kDaylightPrefix);
     const bool isJson = fs::path(argument).extension() == ".json";
-    if (map && (isUniform || isSun || isJson || fs::is_directory(argument)))
+    if (map && (isUniform || isSun || isSky || isDaylight || isJson || fs::is_directory(argument)))
         throw Error(ErrorCode::invalidOption, "has no layout to choose", argument,
                     "--map is for one image");
     if (isUniform) return {.lighting = parseUniform(argument, bandCount)};
@@ -99,6 +128,8 @@ LightSource loadLight(const std::string& argument, int bandCount, std::optional<
         return {.lighting = sunLighting(sun.direction, sun.halfAngleRadians, bandCount),
                 .sun = sun};
     }
+    if (isSky) return makeSky(parseSky(argument, kSkyPrefix), false, bandCount);
+    if (isDaylight) return makeSky(parseSky(argument, kDaylightPrefix), true, bandCount);
     if (isJson) return {.lighting = readCoefficients(argument, bandCount)};
     return readEnvironment(argument, bandCount, map, limits);
 }
@@ -131,6 +162,23 @@ Environment makeBackground(const LightSource& light, const Mat3d& rotation) {
     if (rotation == Mat3d()) return *light.environment;
     const int height = std::clamp(light.environment->radiance.height, 256, 2048);
     return rotate(*light.environment, rotation, SphereMap::latLong, 2 * height, height);
+}
+
+Image drawLight(const LightSource& light, const Mat3d& rotation, int width) {
+    const int height = width / 2;
+    if (light.environment)
+        return rotate(*light.environment, rotation, SphereMap::latLong, width, height).radiance;
+    if (!light.sun) return reconstructLatLong(rotate(light.lighting, rotation), width);
+
+    Environment sky{SphereMap::latLong, Image(width, height)};
+    const auto [direction, halfAngle] = *light.sun;
+    // Of unit irradiance: ∫ L dω = 2π (1 − cos α) / (π sin² α), which is 1 for a light of no
+    // extent.
+    const double sine = std::sin(std::min(halfAngle, 0.5 * std::numbers::pi));
+    const double flux =
+        halfAngle > 0.0 ? 4.0 * std::pow(std::sin(0.5 * halfAngle) / sine, 2.0) : 1.0;
+    addDisc(sky, rotation * direction, halfAngle, Vec3d(flux));
+    return sky.radiance;
 }
 
 }  // namespace prt::cli

@@ -20,6 +20,11 @@ inline constexpr const char* kLightHelp = R"(LIGHT is one of
   sun:azimuth,elevation,angle
                            a disc of unit irradiance on a surface facing it, in degrees: azimuth
                            from +x towards +z, elevation above the horizon, angle its diameter
+  sky:azimuth,elevation[,turbidity]
+                           a clear sky whose sun stands there, without the sun itself; turbidity 2
+                           (clear) to 10 (hazy) [3]; 1 is 1000 cd/m2, so expose by some -5 stops
+  daylight:azimuth,elevation[,turbidity]
+                           the same with its sun
   FILE.json                coefficients as `prt light --format json` writes them)";
 
 /// The layouts of images, "lat-long|angular|…".
@@ -57,5 +62,8 @@ std::unique_ptr<DistantLight> makeExactLight(const LightSource& light, const Mat
 /// The light as an image to be seen behind a scene: the environment, or
 /// what the coefficients stand for.
 Environment makeBackground(const LightSource& light, const Mat3d& rotation);
+
+/// The light itself as a lat-long image; coefficients stand for themselves. @param width  even
+Image drawLight(const LightSource& light, const Mat3d& rotation, int width);
 
 }  // namespace prt::cli

@@ -5,41 +5,18 @@
 
 #include <fmt/format.h>
 
+#include "apps/prt/html.h"
 #include "apps/prt/report.h"
-#include "apps/prt/report_style.h"
 #include "apps/prt/text.h"
 #include "prt/image/false_color.h"
 
 namespace prt::cli {
 namespace {
 
-/// Text that cannot be mistaken for tags.
-std::string escape(std::string_view text) {
-    std::string escaped;
-    for (const char letter : text) {
-        if (letter == '&')
-            escaped += "&amp;";
-        else if (letter == '<')
-            escaped += "&lt;";
-        else if (letter == '>')
-            escaped += "&gt;";
-        else if (letter == '"')
-            escaped += "&quot;";
-        else
-            escaped += letter;
-    }
-    return escaped;
-}
-
 // ── Numbers ──────────────────────────────────────────────────────────────────────────────────────
 
 std::string formatRadiance(double radiance) {
     return fmt::format("{:.3g}", radiance);
-}
-
-std::string formatPercent(double part) {
-    const double percent = 100.0 * part;
-    return fmt::format("{:.{}f} %", percent, percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0);
 }
 
 /// What is left without noise, or what it is below where the noise hides it.
@@ -80,24 +57,6 @@ std::string nameReference(const ReportLight& light, bool inBands) {
 
 // ── Pictures ─────────────────────────────────────────────────────────────────────────────────────
 
-std::string figure(const std::string& name, const std::string& caption) {
-    return fmt::format(
-        "<figure><a href=\"{0}.png\"><img src=\"{0}.png\" alt=\"\"></a><figcaption>{1}"
-        "</figcaption></figure>\n",
-        name, caption);
-}
-
-std::string legend(std::span<const Rgba8> colors, const std::string& low, const std::string& high) {
-    std::string stops;
-    for (const Rgba8& color : colors)
-        stops += fmt::format(", rgb({} {} {})", color.red, color.green, color.blue);
-    return fmt::format(
-        "<div class=\"legend\">{}<div style=\"background: linear-gradient(to "
-        "right{})\"></div>{}</div>"
-        "\n",
-        low, stops, high);
-}
-
 std::string formatSlider(std::size_t index, const ReportLight& light) {
     const std::string relit = pictureName(index, kRelit);
     const std::string itself = pictureName(index, kItself);
@@ -116,52 +75,52 @@ std::string formatSlider(std::size_t index, const ReportLight& light) {
 std::string formatPictures(std::size_t index, const ReportLight& light) {
     const float scale = differenceScale(light);
     std::string html = "<h3>Side by side</h3>\n<div class=\"pictures\">\n";
-    html += figure(pictureName(index, kRelit), "<b>Relit</b> from the asset");
-    html += figure(pictureName(index, kSameBands),
-                   fmt::format("<b>Path-traced</b> under {}", nameReference(light, true)));
-    html += figure(pictureName(index, kItself),
-                   fmt::format("<b>Path-traced</b> under {}", nameReference(light, false)));
+    html += formatFigure(pictureName(index, kRelit), "<b>Relit</b> from the asset");
+    html += formatFigure(pictureName(index, kSameBands),
+                         fmt::format("<b>Path-traced</b> under {}", nameReference(light, true)));
+    html += formatFigure(pictureName(index, kItself),
+                         fmt::format("<b>Path-traced</b> under {}", nameReference(light, false)));
     html += "</div>\n<h3>What differs</h3>\n<div class=\"pictures two\">\n";
     for (const bool inBands : {true, false}) {
         const std::string name = pictureName(index, inBands ? kSameBands : kItself);
-        html += figure(name + "-difference",
-                       fmt::format("<b>Relit less path-traced</b> under {}: red is too bright, "
-                                   "blue too dark",
-                                   nameReference(light, inBands)));
-        html += figure(name + "-flip", fmt::format("<b>FLIP</b>, what a person sees who flips "
-                                                   "between the two, under {}",
-                                                   nameReference(light, inBands)));
+        html +=
+            formatFigure(name + "-difference",
+                         fmt::format("<b>Relit less path-traced</b> under {}: red is too bright, "
+                                     "blue too dark",
+                                     nameReference(light, inBands)));
+        html +=
+            formatFigure(name + "-flip", fmt::format("<b>FLIP</b>, what a person sees who flips "
+                                                     "between the two, under {}",
+                                                     nameReference(light, inBands)));
     }
     html += "</div>\n";
-    html += legend(
+    html += formatLegend(
         signedColors(), fmt::format("−{:.3g}", scale),
         fmt::format("+{:.3g} of luminance, a quarter of the truth's root mean square", scale));
-    html += legend(unitColors(), "0", "1 FLIP, from no difference to black against white");
+    html += formatLegend(unitColors(), "0", "1 FLIP, from no difference to black against white");
     return html;
 }
 
 // ── Sections ─────────────────────────────────────────────────────────────────────────────────────
 
-std::string card(const std::string& number, const std::string& title, const std::string& meaning) {
-    return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span><p>{}</p></div>\n", number,
-                       title, meaning);
-}
-
 std::string formatCards(const ReportLight& light) {
     const NoisyError& bake = light.sameBands.comparison.error;
     const NoisyError& all = light.itself.comparison.error;
     return "<div class=\"cards\">\n" +
-           card(formatRelativeExcess(bake), "error of the bake",
-                fmt::format("Against path tracing under the light in the same {} bands: what the "
-                            "rays of the bake, interpolation between vertices and storage cost.",
-                            light.bandCount)) +
-           card(formatRelativeExcess(all), "error of bake and bands",
-                fmt::format("Against path tracing under the light itself: what it costs as well "
-                            "to have only {} bands of it.",
-                            light.bandCount)) +
-           card(formatPercent(bake.relative(bake.noiseRmse)), "noise of the truth",
-                "What is left of the randomness of paths in the first reference. It is taken out "
-                "of the two errors.") +
+           formatCard(
+               formatRelativeExcess(bake), "error of the bake",
+               fmt::format("Against path tracing under the light in the same {} bands: what the "
+                           "rays of the bake, interpolation between vertices and storage cost.",
+                           light.bandCount)) +
+           formatCard(
+               formatRelativeExcess(all), "error of bake and bands",
+               fmt::format("Against path tracing under the light itself: what it costs as well "
+                           "to have only {} bands of it.",
+                           light.bandCount)) +
+           formatCard(
+               formatPercent(bake.relative(bake.noiseRmse)), "noise of the truth",
+               "What is left of the randomness of paths in the first reference. It is taken out "
+               "of the two errors.") +
            "</div>\n";
 }
 
@@ -185,7 +144,7 @@ std::string formatTransports(std::size_t index, const ReportLight& light) {
     std::string pictures, rows;
     for (const auto& [transport, judged] : light.byTransport) {
         const std::string name(transportName(transport));
-        pictures += figure(
+        pictures += formatFigure(
             pictureName(index, name),
             fmt::format("<b>{}</b>, {} off", name, formatRelativeExcess(judged.comparison.error)));
         rows += formatRow(name, judged.comparison);
@@ -200,7 +159,7 @@ std::string formatTransports(std::size_t index, const ReportLight& light) {
 }
 
 std::string formatLight(std::size_t index, const ReportLight& light) {
-    return fmt::format("<h2>Light: <code>{}</code></h2>\n", escape(light.name)) +
+    return fmt::format("<h2>Light: <code>{}</code></h2>\n", escapeHtml(light.name)) +
            formatCards(light) + formatSlider(index, light) + formatPictures(index, light) +
            formatErrors(light) + formatTransports(index, light);
 }
@@ -222,7 +181,7 @@ std::string formatBandTable(const Report& report) {
                            name, caption);
     };
     for (std::size_t i = 0; i < report.lights.size(); ++i) {
-        html += fmt::format("<tr><td><code>{}</code></td>", escape(report.lights[i].name));
+        html += fmt::format("<tr><td><code>{}</code></td>", escapeHtml(report.lights[i].name));
         for (const auto& [bandCount, judged] : report.lights[i].byBandCount)
             html += cell(pictureName(i, bandPictureKind(bandCount)),
                          formatRelativeExcess(judged.comparison.error));
@@ -259,14 +218,14 @@ std::string formatFacts(const Report& report) {
     return "<h2>How it was made</h2>\n<dl>\n" +
            fact("asset",
                 fmt::format("<code>{}</code>: {}, {}; {}, {} a vertex as shown",
-                            escape(report.asset), formatCount(report.vertexCount, "vertex"),
+                            escapeHtml(report.asset), formatCount(report.vertexCount, "vertex"),
                             formatCount(report.triangleCount, "triangle"),
                             formatBytes(report.assetBytes),
                             formatCount(report.bytesPerVertex, "byte"))) +
            fact("baked with",
                 fmt::format(
-                    "<code>{}</code>, by {}; {} made", escape(provenance.command),
-                    escape(provenance.generator),
+                    "<code>{}</code>, by {}; {} made", escapeHtml(provenance.command),
+                    escapeHtml(provenance.generator),
                     formatCount(static_cast<std::uint64_t>(provenance.bounceCount), "bounce"))) +
            fact("shown",
                 fmt::format("{} transport; exposure {:+g} stops, tone curve {}",
@@ -282,7 +241,7 @@ std::string formatFacts(const Report& report) {
            fact("times", times) +
            fact("this page", fmt::format("<code>{}</code>; numbers in <a href=\"comparison.json\">"
                                          "comparison.json</a>, radiance in the .exr files",
-                                         escape(report.command))) +
+                                         escapeHtml(report.command))) +
            "</dl>\n";
 }
 
@@ -292,20 +251,13 @@ std::string formatReportPage(const Report& report) {
     std::string lights;
     for (std::size_t i = 0; i < report.lights.size(); ++i)
         lights += formatLight(i, report.lights[i]);
-    const std::string asset = escape(std::filesystem::path(report.asset).filename().string());
-    return fmt::format(R"(<!doctype html>
-<html lang="en">
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{0} against the truth</title>
-<style>{1}</style>
-<h1>{0} against the truth</h1>
-<p class="soft">What the baked asset shows when it is relit, held against pictures by a path tracer, which knows no bands and no
-vertices. Both look along the same rays, so only light can differ.</p>
-)",
-                       asset, kReportStyle) +
-           formatBandTable(report) + lights + kHowToRead + formatFacts(report) +
-           fmt::format("<script>{}</script>\n</html>\n", kReportScript);
+    const std::string asset = std::filesystem::path(report.asset).filename().string();
+    return formatPage(
+        asset + " against the truth",
+        "What the baked asset shows when it is relit, held against pictures by a path tracer, "
+        "which "
+        "knows no bands and no vertices. Both look along the same rays, so only light can differ.",
+        formatBandTable(report) + lights + kHowToRead + formatFacts(report));
 }
 
 }  // namespace prt::cli

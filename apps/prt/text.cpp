@@ -52,6 +52,11 @@ std::string formatBytes(std::uint64_t bytes) {
     return scaled.digits + " " + scaled.prefix + "B";
 }
 
+std::string formatPercent(double part) {
+    const double percent = 100.0 * part;
+    return fmt::format("{:.{}f} %", percent, percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0);
+}
+
 std::string formatDuration(double seconds) {
     const auto whole = static_cast<std::uint64_t>(std::ceil(std::max(seconds, 0.0)));
     if (whole < 60) return fmt::format("{} s", whole);

@@ -105,46 +105,6 @@ double transmitBeam(double nanometres, double airMass, double turbidity) {
                     (0.008735 * std::pow(micrometres, -4.08) + haze * std::pow(micrometres, -1.3)));
 }
 
-/// Adds the sun to a drawn sky: texels get the share of the disc that they show.
-void drawSun(const ClearSky& sky, Image& image) {
-    const double halfAngle = ClearSky::kSunHalfAngleRadians;
-    const Vec2f center = pixelFromDirection(SphereMap::latLong, image.width, image.height,
-                                            Vec3f(sky.sunDirection()));
-    struct Share {
-        int x, y;
-        double solidAngle;
-    };
-    std::vector<Share> shares;
-    double total = 0.0;
-    const int reach = 2 + static_cast<int>(halfAngle / kPi * image.height);
-    for (int y = std::max(static_cast<int>(center.y) - reach, 0);
-         y <= std::min(static_cast<int>(center.y) + reach, image.height - 1); ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            constexpr int kSplit = 16;
-            double solidAngle = 0.0;
-            for (int k = 0; k < kSplit * kSplit; ++k) {
-                const SpherePlace place =
-                    spherePlace(SphereMap::latLong, image.width, image.height,
-                                x + (k % kSplit + 0.5) / kSplit, y + (k / kSplit + 0.5) / kSplit);
-                if ((place.direction - sky.sunDirection()).length() < halfAngle)
-                    solidAngle += place.solidAngleDensity / (kSplit * kSplit);
-            }
-            if (solidAngle > 0.0) shares.push_back({x, y, solidAngle});
-            total += solidAngle;
-        }
-    }
-    // A disc between all sample points falls into the texel of its centre.
-    if (shares.empty()) {
-        shares.push_back({std::min(static_cast<int>(center.x), image.width - 1),
-                          std::min(static_cast<int>(center.y), image.height - 1), 1.0});
-        total = 1.0;
-    }
-    for (const auto& [x, y, solidAngle] : shares) {
-        const SphereTexel texel = sphereTexel(SphereMap::latLong, image.width, image.height, x, y);
-        image.at(x, y) += Vec3f(sky.sunIrradiance() * (solidAngle / total / texel.solidAngle));
-    }
-}
-
 }  // namespace
 
 ClearSky::ClearSky(const Vec3d& sunDirection, double turbidity)
@@ -224,7 +184,9 @@ Environment drawSky(const ClearSky& sky, int width, bool withSun) {
         for (int x = 0; x < width; ++x)
             image.at(x, y) = Vec3f(
                 sky.radiance(sphereTexel(SphereMap::latLong, width, image.height, x, y).direction));
-    if (withSun) drawSun(sky, image);
+    if (withSun)
+        addDisc(environment, sky.sunDirection(), ClearSky::kSunHalfAngleRadians,
+                sky.sunIrradiance());
     return environment;
 }
 

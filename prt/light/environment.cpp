@@ -122,6 +122,23 @@ Lighting projectTexels(const Environment& environment, int bandCount) {
     return scale(lighting, 4.0 * kPi / totalSolidAngle);
 }
 
+/// The solid angle that a texel shows of a disc.
+double measureCoverage(const Environment& environment, int x, int y, const Vec3d& direction,
+                       double halfAngleRadians) {
+    constexpr int kSplit = 16;
+    const Image& image = environment.radiance;
+    const double cosine = std::cos(halfAngleRadians);
+    double solidAngle = 0.0;
+    for (int k = 0; k < kSplit * kSplit; ++k) {
+        const SpherePlace place =
+            spherePlace(environment.map, image.width, image.height, x + (k % kSplit + 0.5) / kSplit,
+                        y + (k / kSplit + 0.5) / kSplit);
+        if (place.direction.dot(direction) > cosine)
+            solidAngle += place.solidAngleDensity / (kSplit * kSplit);
+    }
+    return solidAngle;
+}
+
 }  // namespace
 
 SanitiseReport sanitise(Image& radiance) {
@@ -158,6 +175,40 @@ Vec3f lookUpRadiance(const Environment& environment, const Vec3f& direction) {
         if (weight > 0.0f) radiance += image.at(x, y) * weight;
     }
     return radiance;
+}
+
+void addDisc(Environment& environment, const Vec3d& direction, double halfAngleRadians,
+             const Vec3d& flux) {
+    Image& image = environment.radiance;
+    std::vector<double> coverage(image.pixels.size(), 0.0), solidAngles(image.pixels.size(), 0.0);
+    double total = 0.0;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const auto index = static_cast<std::size_t>(y * image.width + x);
+            const SphereTexel texel = sphereTexel(environment.map, image.width, image.height, x, y);
+            solidAngles[index] = texel.solidAngle;
+            if (texel.solidAngle == 0.0) continue;
+            // No texel of these maps is longer than eight times the root of its solid angle, but at
+            // the poles, where it is one row high.
+            const double reach = std::max(8.0 * std::sqrt(texel.solidAngle), 8.0 / image.height);
+            const double angle = std::acos(std::clamp(texel.direction.dot(direction), -1.0, 1.0));
+            if (angle < halfAngleRadians - reach)
+                coverage[index] = texel.solidAngle;
+            else if (angle < halfAngleRadians + reach)
+                coverage[index] = measureCoverage(environment, x, y, direction, halfAngleRadians);
+            total += coverage[index];
+        }
+    }
+    if (total == 0.0) {
+        const Vec2f center =
+            pixelFromDirection(environment.map, image.width, image.height, Vec3f(direction));
+        const int x = std::clamp(static_cast<int>(center.x), 0, image.width - 1);
+        const int y = std::clamp(static_cast<int>(center.y), 0, image.height - 1);
+        coverage[static_cast<std::size_t>(y * image.width + x)] = total = 1.0;
+    }
+    for (std::size_t i = 0; i < coverage.size(); ++i)
+        if (coverage[i] > 0.0 && solidAngles[i] > 0.0)
+            image.pixels[i] += Vec3f(flux * (coverage[i] / total / solidAngles[i]));
 }
 
 Image reconstructLatLong(const Lighting& lighting, int width) {

@@ -40,6 +40,15 @@ Lighting projectLighting(const Environment& environment, int bandCount);
 /// @param direction  unit, world space
 Vec3f lookUpRadiance(const Environment& environment, const Vec3f& direction);
 
+/// Adds a disc of light to an image, in the texels that it touches, by what they show of it. All
+/// goes into the texel of its centre where it slips between the places that are tried.
+///
+/// @param direction         unit, towards the disc's centre
+/// @param halfAngleRadians  in [0, π]
+/// @param flux              ∫ L dω over the disc, which is kept whatever the texels
+void addDisc(Environment& environment, const Vec3d& direction, double halfAngleRadians,
+             const Vec3d& flux);
+
 /// Draws what the coefficients stand for as a lat-long image, negative lobes included.
 ///
 /// @param width  even
