@@ -10,8 +10,10 @@
 #include "prt/basis/sh.h"
 #include "prt/basis/sh_rotation.h"
 #include "prt/light/analytic_lights.h"
+#include "prt/light/deringing.h"
 #include "prt/light/environment.h"
 #include "prt/math/quadrature.h"
+#include "prt/math/sampling.h"
 
 namespace prt {
 namespace {
@@ -183,14 +185,34 @@ BENCHMARK_CAPTURE(projectEnvironment, vertical_cross_768x1024, SphereMap::vertic
     ->Arg(5)
     ->Unit(benchmark::kMillisecond);
 
-void deringSun(benchmark::State& state) {
-    const Lighting sun =
-        sunLighting(Vec3d(2.0, -1.0, 2.0) / 3.0, 0.0, static_cast<int>(state.range(0)));
-    for (auto _ : state)
-        benchmark::DoNotOptimize(deringingFactors(sun));
+/// Five suns in different colours before a dim sky: what needs many rounds.
+Lighting makeSuns(int bandCount) {
+    RandomStream random(2, 0);
+    Lighting suns = uniformLighting(Vec3d(0.02), bandCount);
+    for (int i = 0; i < 5; ++i) {
+        const Vec3d direction =
+            Vec3d(sampleUniformSphere(random.nextUnitFloat(), random.nextUnitFloat())).normalized();
+        Lighting sun = sunLighting(direction, 0.05, bandCount);
+        for (Vec3d& coefficient : sun.coefficients)
+            coefficient *= Vec3d(1.0, 0.5 * i, 0.2);
+        suns = add(suns, sun);
+    }
+    return suns;
 }
-BENCHMARK(deringSun)
-    ->Name("lighting/dering_sun")
+
+void deringSuns(benchmark::State& state, NonNegative nonNegative) {
+    const Lighting suns = makeSuns(static_cast<int>(state.range(0)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(deringingFactors(suns, {nonNegative}));
+}
+BENCHMARK_CAPTURE(deringSuns, radiance, NonNegative::radiance)
+    ->Name("lighting/dering_suns/radiance")
+    ->Arg(3)
+    ->Arg(5)
+    ->Arg(10)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(deringSuns, irradiance, NonNegative::irradiance)
+    ->Name("lighting/dering_suns/irradiance")
     ->Arg(3)
     ->Arg(5)
     ->Arg(10)

@@ -17,6 +17,7 @@
 #include "apps/prt/picture.h"
 #include "apps/prt/staged_folder.h"
 #include "prt/base/error.h"
+#include "prt/light/deringing.h"
 
 namespace prt::cli {
 namespace {

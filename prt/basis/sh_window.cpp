@@ -1,5 +1,6 @@
 #include "prt/basis/sh_window.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +8,15 @@
 
 namespace prt {
 namespace {
+
+constexpr double kSmallestLambda = 1e-300;
+constexpr double kLargestLambda = 1e300;  // leaves nothing of a double but the mean
+
+/// The square of l(l+1), what the Laplacian multiplies degree l by.
+double squaredEigenvalue(std::size_t l) {
+    const double degree = static_cast<double>(l);
+    return degree * degree * (degree + 1.0) * (degree + 1.0);
+}
 
 double windowFactor(ShWindow window, double x) {
     switch (window) {
@@ -35,11 +45,45 @@ std::vector<double> windowFactors(ShWindow window, int bandCount) {
 std::vector<double> laplacianFactors(double lambda, int bandCount) {
     PRT_ASSERT(bandCount >= 1, "there is at least one band");
     std::vector<double> factors;
-    for (int l = 0; l < bandCount; ++l) {
-        const double eigenvalue = l * (l + 1.0);
-        factors.push_back(1.0 / (1.0 + lambda * eigenvalue * eigenvalue));
-    }
+    for (int l = 0; l < bandCount; ++l)
+        factors.push_back(1.0 / (1.0 + lambda * squaredEigenvalue(static_cast<std::size_t>(l))));
     return factors;
+}
+
+double smoothAtPoint(std::span<const double> bands, double lambda) {
+    double sum = 0.0;
+    for (std::size_t l = 0; l < bands.size(); ++l)
+        sum += bands[l] / (1.0 + lambda * squaredEigenvalue(l));
+    return sum;
+}
+
+double findLeastLambda(std::span<const double> bands, double from) {
+    const double start = smoothAtPoint(bands, from);
+    if (start >= 0.0) return from;
+
+    // No λ closer than this can be enough, for the sum is nowhere steeper above; and where the mean
+    // is positive, this always is.
+    double steepest = 0.0, lobes = 0.0;
+    for (std::size_t l = 1; l < bands.size(); ++l) {
+        const double eigenvalue = squaredEigenvalue(l);
+        const double divisor = 1.0 + from * eigenvalue;
+        steepest += std::abs(bands[l]) * eigenvalue / (divisor * divisor);
+        lobes += std::max(-bands[l], 0.0) / eigenvalue;
+    }
+    const double enough = bands[0] > 0.0 ? std::clamp(lobes / bands[0], from, kLargestLambda)
+                                         : std::max(from, kLargestLambda);
+
+    double low = from, high = std::min(from - start / steepest, enough);
+    while (high < enough && smoothAtPoint(bands, high) < 0.0) {
+        low = high;
+        high = std::min(std::max(1.125 * high, kSmallestLambda), enough);
+    }
+    constexpr int kStepCount = 60;
+    for (int step = 0; step < kStepCount; ++step) {
+        const double middle = 0.5 * (low + high);
+        (smoothAtPoint(bands, middle) >= 0.0 ? high : low) = middle;
+    }
+    return high;
 }
 
 }  // namespace prt

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 namespace prt {
@@ -17,5 +18,20 @@ std::vector<double> windowFactors(ShWindow window, int bandCount);
 /// The Laplacian window 1 / (1 + λ l²(l+1)²), which minimises squared error plus λ times squared
 /// curvature [Sloan08].
 std::vector<double> laplacianFactors(double lambda, int bandCount);
+
+/// A function at one point after the Laplacian window, Σ_l b_l / (1 + λ l²(l+1)²).
+///
+/// @param bands  b_l, what each band of the function adds at that point
+double smoothAtPoint(std::span<const double> bands, double lambda);
+
+/// The first λ, going up, under which a function is not negative at one point. It may be negative
+/// again above: the window is no average with positive weights.
+///
+/// Looks in steps of an eighth, so that it passes over nothing but a touch.
+///
+/// @param bands  b_l; where the first, the mean of the function, is not positive, no λ is enough
+/// @param from   λ in [0, 1e300] to start from, returned if it is enough
+/// @return       at most 1e300, which leaves nothing but the mean
+double findLeastLambda(std::span<const double> bands, double from);
 
 }  // namespace prt

@@ -1,11 +1,13 @@
 // Bibliography
 //   [Sloan17]  Deringing spherical harmonics
+#include "prt/light/deringing.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "prt/base/assert.h"
-#include "prt/light/lighting.h"
+#include "prt/light/irradiance.h"
 #include "prt/math/frame.h"
 
 namespace prt {
@@ -37,75 +39,83 @@ DirectionGrid makeGrid(int bandCount) {
     return grid;
 }
 
-/// One channel of the lighting, and the radiance of each of its bands over the grid.
+/// What each band of one function adds in one direction.
+std::vector<double> evaluateBands(std::span<const double> coefficients, int bandCount,
+                                  const Vec3d& direction) {
+    std::vector<double> values(coefficients.size());
+    evaluateSh(direction, bandCount, values);
+    std::vector<double> bands(static_cast<std::size_t>(bandCount), 0.0);
+    std::size_t i = 0;
+    for (std::size_t l = 0; l < bands.size(); ++l) {
+        for (; i < (l + 1) * (l + 1); ++i)
+            bands[l] += coefficients[i] * values[i];
+    }
+    return bands;
+}
+
+/// One channel of the lighting, and each of its bands over the grid.
 struct Channel {
     std::vector<double> coefficients;
-    std::vector<std::vector<double>> bandRadiance;
-    double tolerance = 0.0;  ///< what counts as rounding
+    std::vector<std::vector<double>> bandsOnGrid;  ///< [band][direction]
+    double tolerance = 0.0;                        ///< what counts as rounding
 };
 
 Channel sampleChannel(const Lighting& lighting, int channelIndex, const DirectionGrid& grid) {
     Channel channel;
-    for (const Vec3d& coefficient : lighting.coefficients) {
+    for (const Vec3d& coefficient : lighting.coefficients)
         channel.coefficients.push_back(coefficient[channelIndex]);
-    }
-    channel.bandRadiance.resize(static_cast<std::size_t>(lighting.bandCount));
-    std::vector<double> values(channel.coefficients.size());
+    channel.bandsOnGrid.resize(static_cast<std::size_t>(lighting.bandCount));
     for (const Vec3d& direction : grid.directions) {
-        evaluateSh(direction, lighting.bandCount, values);
-        std::size_t i = 0;
-        for (std::size_t l = 0; l < channel.bandRadiance.size(); ++l) {
-            double sum = 0.0;
-            for (; i < (l + 1) * (l + 1); ++i)
-                sum += channel.coefficients[i] * values[i];
-            channel.bandRadiance[l].push_back(sum);
-        }
+        const auto bands = evaluateBands(channel.coefficients, lighting.bandCount, direction);
+        for (std::size_t l = 0; l < bands.size(); ++l)
+            channel.bandsOnGrid[l].push_back(bands[l]);
     }
     constexpr double kRounding = 1e-10;
     channel.tolerance = kRounding * channel.coefficients[0];
     return channel;
 }
 
-std::vector<double> applyFactors(const Channel& channel, std::span<const double> factors) {
-    std::vector<double> radiance(channel.bandRadiance[0].size(), 0.0);
+std::vector<double> smoothOnGrid(const Channel& channel, std::span<const double> factors) {
+    std::vector<double> values(channel.bandsOnGrid[0].size(), 0.0);
     for (std::size_t l = 0; l < factors.size(); ++l) {
-        for (std::size_t k = 0; k < radiance.size(); ++k) {
-            radiance[k] += factors[l] * channel.bandRadiance[l][k];
-        }
+        for (std::size_t k = 0; k < values.size(); ++k)
+            values[k] += factors[l] * channel.bandsOnGrid[l][k];
     }
-    return radiance;
+    return values;
 }
 
-/// The lowest of the grid's points that lie no higher than their neighbours.
-std::vector<std::size_t> findLowestMinima(const DirectionGrid& grid,
-                                          std::span<const double> radiance) {
+/// The grid's points that lie no higher than their neighbours, and so low that the function may be
+/// negative between them.
+std::vector<std::size_t> findLowMinima(const DirectionGrid& grid, std::span<const double> values) {
+    // Along a great circle n bands are a trigonometric polynomial of degree n − 1, whose second
+    // derivative is at most (n − 1)² times its largest value (Bernstein). A minimum is at most 1/√2
+    // of the spacing π/6n from a grid point, which is then at most (π/6)²/4 of that value higher.
+    constexpr double kLargestRise = 0.0686 / (1.0 - 0.0686);
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    const double ceiling = kLargestRise * std::max(-*lowest, *highest);
+
     std::vector<std::size_t> minima;
     for (int row = 0; row < grid.rowCount; ++row) {
         for (int column = 0; column < grid.columnCount; ++column) {
             const std::size_t index = grid.indexOf(row, column);
             const auto isNoHigherThan = [&](int otherRow, int otherColumn) {
                 return otherRow < 0 || otherRow == grid.rowCount ||
-                       radiance[index] <= radiance[grid.indexOf(otherRow, otherColumn)];
+                       values[index] <= values[grid.indexOf(otherRow, otherColumn)];
             };
-            if (isNoHigherThan(row - 1, column) && isNoHigherThan(row + 1, column) &&
-                isNoHigherThan(row, column - 1) && isNoHigherThan(row, column + 1)) {
+            if (values[index] <= ceiling && isNoHigherThan(row - 1, column) &&
+                isNoHigherThan(row + 1, column) && isNoHigherThan(row, column - 1) &&
+                isNoHigherThan(row, column + 1)) {
                 minima.push_back(index);
             }
         }
     }
-    constexpr std::size_t kMaxMinimumCount = 32;
-    const std::size_t count = std::min(minima.size(), kMaxMinimumCount);
-    std::partial_sort(minima.begin(), minima.begin() + static_cast<std::ptrdiff_t>(count),
-                      minima.end(),
-                      [&](std::size_t a, std::size_t b) { return radiance[a] < radiance[b]; });
-    minima.resize(count);
     return minima;
 }
 
 /// Walks downhill from a direction by compass search: to the best of four
 /// neighbours, or closer if none is better.
-double descend(std::span<const double> coefficients, int bandCount, Vec3d direction,
-               double stepRadians) {
+Vec3d descend(std::span<const double> coefficients, int bandCount, Vec3d direction,
+              double stepRadians) {
     constexpr double kFinestStepRadians = 1e-6;  // leaves an error of its square
     double lowest = reconstructSh(coefficients, bandCount, direction);
     while (stepRadians > kFinestStepRadians) {
@@ -114,65 +124,60 @@ double descend(std::span<const double> coefficients, int bandCount, Vec3d direct
         for (const Vec3d& offset :
              {frame.tangent, -frame.tangent, frame.bitangent, -frame.bitangent}) {
             const Vec3d neighbour = (frame.normal + offset * stepRadians).normalized();
-            const double radiance = reconstructSh(coefficients, bandCount, neighbour);
-            if (radiance < lowest) {
-                lowest = radiance;
+            const double value = reconstructSh(coefficients, bandCount, neighbour);
+            if (value < lowest) {
+                lowest = value;
                 direction = neighbour;
                 hasMoved = true;
             }
         }
         if (!hasMoved) stepRadians *= 0.5;
     }
-    return lowest;
+    return direction;
 }
 
-bool isNonNegative(const Channel& channel, const DirectionGrid& grid,
-                   std::span<const double> factors) {
-    const std::vector<double> radiance = applyFactors(channel, factors);
-    if (*std::min_element(radiance.begin(), radiance.end()) < -channel.tolerance) return false;
+/// The first λ from the given one on that is enough at the minima of the channel as it is now.
+/// Those move as λ grows, but no λ that was passed over is enough.
+double raiseLambda(const Channel& channel, const DirectionGrid& grid, double lambda) {
+    const int bandCount = static_cast<int>(channel.bandsOnGrid.size());
+    const std::vector<double> factors = laplacianFactors(lambda, bandCount);
+    std::vector<double> smoothed = channel.coefficients;
+    for (std::size_t i = 0; i < smoothed.size(); ++i)
+        smoothed[i] *= factors[static_cast<std::size_t>(shDegree(static_cast<int>(i)))];
 
-    std::vector<double> coefficients = channel.coefficients;
-    for (std::size_t i = 0; i < coefficients.size(); ++i) {
-        coefficients[i] *= factors[static_cast<std::size_t>(shDegree(static_cast<int>(i)))];
+    for (const std::size_t k : findLowMinima(grid, smoothOnGrid(channel, factors))) {
+        const Vec3d lowest =
+            descend(smoothed, bandCount, grid.directions[k], grid.spacingRadians());
+        const auto bands = evaluateBands(channel.coefficients, bandCount, lowest);
+        if (smoothAtPoint(bands, lambda) < -channel.tolerance)
+            lambda = findLeastLambda(bands, lambda);
     }
-    const auto minima = findLowestMinima(grid, radiance);
-    return std::all_of(minima.begin(), minima.end(), [&](std::size_t k) {
-        return descend(coefficients, static_cast<int>(factors.size()), grid.directions[k],
-                       grid.spacingRadians()) >= -channel.tolerance;
-    });
+    return lambda;
 }
 
 }  // namespace
 
-std::vector<double> deringingFactors(const Lighting& lighting) {
+std::vector<double> deringingFactors(const Lighting& lighting, const DeringingOptions& options) {
     PRT_ASSERT(lighting.bandCount >= 1, "there is at least one band");
+    const Lighting judged =
+        options.nonNegative == NonNegative::irradiance ? convolveWithCosine(lighting) : lighting;
     const DirectionGrid grid = makeGrid(lighting.bandCount);
     std::vector<Channel> channels;
     for (int channel = 0; channel < 3; ++channel) {
-        if (lighting.coefficients[0][channel] > 0.0) {
-            channels.push_back(sampleChannel(lighting, channel, grid));
-        }
+        if (judged.coefficients[0][channel] > 0.0)
+            channels.push_back(sampleChannel(judged, channel, grid));
     }
-    const auto isEnough = [&](double lambda) {
-        const auto factors = laplacianFactors(lambda, lighting.bandCount);
-        return std::all_of(channels.begin(), channels.end(), [&](const Channel& channel) {
-            return isNonNegative(channel, grid, factors);
-        });
-    };
-    if (isEnough(0.0)) return laplacianFactors(0.0, lighting.bandCount);
 
-    // Bracket the least λ between powers of two, then bisect.
-    constexpr double kSmallest = 0x1p-20, kLargest = 0x1p40;
-    double enough = kSmallest;
-    while (enough < kLargest && !isEnough(enough))
-        enough *= 2.0;
-    double tooLittle = enough == kSmallest ? 0.0 : 0.5 * enough;
-    constexpr int kStepCount = 32;
-    for (int step = 0; step < kStepCount; ++step) {
-        const double middle = 0.5 * (tooLittle + enough);
-        (isEnough(middle) ? enough : tooLittle) = middle;
+    // Near the end each round squares what is missing.
+    constexpr int kMaxRoundCount = 100;
+    double lambda = 0.0;
+    for (int round = 0; round < kMaxRoundCount; ++round) {
+        const double last = lambda;
+        for (const Channel& channel : channels)
+            lambda = raiseLambda(channel, grid, lambda);
+        if (lambda == last) break;
     }
-    return laplacianFactors(enough, lighting.bandCount);
+    return laplacianFactors(lambda, lighting.bandCount);
 }
 
 }  // namespace prt

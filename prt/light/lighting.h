@@ -48,11 +48,4 @@ Lighting interpolate(const Lighting& a, const Lighting& b, double t);
 /// The radiance that the coefficients stand for, in one direction.
 Vec3d reconstruct(const Lighting& lighting, const Vec3d& direction);
 
-/// The least Laplacian smoothing, the same for the three channels so that hue holds, under which no
-/// channel's reconstruction is negative anywhere [Sloan17]. Identity for lighting that has no
-/// negative lobes. A channel whose mean is not positive cannot be helped and is left out.
-///
-/// @return  one factor a band, the first 1
-std::vector<double> deringingFactors(const Lighting& lighting);
-
 }  // namespace prt

@@ -24,5 +24,30 @@ TEST(ShWindow, LaplacianFactorsDivideByOnePlusLambdaTimesTheSquaredEigenvalue) {
     expectFactors(laplacianFactors(0.25, 3), {1, 0.5, 0.1});
 }
 
+// 1 − 8/(1 + 4 λ) vanishes at 7/4.
+TEST(ShWindow, TheLeastLambdaIsTheFirstAtWhichTheSumIsNotNegative) {
+    constexpr double kRounding = 1e-12;
+    const std::vector<double> slope = {1.0, -8.0};
+    EXPECT_NEAR(findLeastLambda(slope, 0.0), 1.75, kRounding);
+    EXPECT_EQ(findLeastLambda(slope, 2.0), 2.0);
+    // Not negative from 0.0011 to 0.044, and then again from 1.6 on.
+    const std::vector<double> wave = {0.3, -3.0, 6.0, 2.0, -7.0};
+    const double lambda = findLeastLambda(wave, 0.0);
+    EXPECT_NEAR(smoothAtPoint(wave, lambda), 0.0, kRounding);
+    EXPECT_GE(smoothAtPoint(wave, lambda), 0.0);
+    EXPECT_LT(lambda, 0.0012);
+    EXPECT_GT(findLeastLambda(wave, 0.05), 1.6);
+}
+
+TEST(ShWindow, TheLeastLambdaIsFoundForBandsOfAnySize) {
+    constexpr double kDenormal = 5e-324;
+    EXPECT_LT(findLeastLambda(std::vector{1e10, -1e10, -kDenormal}, 0.0), 1e-15);
+    EXPECT_EQ(findLeastLambda(std::vector{0.0, -1.0}, 0.0), 1e300);
+    EXPECT_EQ(findLeastLambda(std::vector{-1.0, 0.5}, 0.0), 1e300);
+    EXPECT_EQ(findLeastLambda(std::vector{kDenormal, -1.0}, 0.0), 1e300);
+    EXPECT_EQ(findLeastLambda(std::vector{kDenormal, -1.0}, 1e300), 1e300);
+    EXPECT_EQ(findLeastLambda(std::vector{-1.0}, 0.0), 1e300);
+}
+
 }  // namespace
 }  // namespace prt
