@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,16 +14,14 @@
 #include "apps/prt/interrupts.h"
 #include "apps/prt/light_argument.h"
 #include "apps/prt/light_report.h"
+#include "apps/prt/light_window.h"
 #include "apps/prt/limits.h"
 #include "apps/prt/picture.h"
 #include "apps/prt/staged_folder.h"
 #include "prt/base/error.h"
-#include "prt/light/deringing.h"
 
 namespace prt::cli {
 namespace {
-
-enum class WindowChoice { automatic, none, hann, lanczos };
 
 struct LightArguments {
     std::vector<std::string> lights;
@@ -31,35 +30,13 @@ struct LightArguments {
     std::optional<SphereMap> map;
     Vec3d rotationDegrees{0.0, 0.0, 0.0};
     Vec3d factor{1.0, 1.0, 1.0};
-    WindowChoice window = WindowChoice::none;
+    WindowArguments window;
     ShConvention convention = ShConvention::cs;
     CoefficientFormat format = CoefficientFormat::table;
     std::string reconstruction;
     std::string report;
     ReaderLimits limits;
 };
-
-std::optional<WindowChoice> parseWindow(std::string_view name) {
-    if (name == "auto") return WindowChoice::automatic;
-    if (name == "none") return WindowChoice::none;
-    if (name == "hann") return WindowChoice::hann;
-    if (name == "lanczos") return WindowChoice::lanczos;
-    return std::nullopt;
-}
-
-Lighting lowerRinging(const Lighting& lighting, WindowChoice window) {
-    switch (window) {
-        case WindowChoice::automatic:
-            return applyWindow(lighting, deringingFactors(lighting));
-        case WindowChoice::hann:
-            return applyWindow(lighting, windowFactors(ShWindow::hann, lighting.bandCount));
-        case WindowChoice::lanczos:
-            return applyWindow(lighting, windowFactors(ShWindow::lanczos, lighting.bandCount));
-        case WindowChoice::none:
-            break;
-    }
-    return lighting;
-}
 
 std::optional<Vec3d> parseFactor(std::string_view text) {
     if (const std::optional<double> factor = parseNumber(text)) return Vec3d(*factor);
@@ -80,20 +57,6 @@ std::string describeConventions() {
         text += fmt::format("  {:<9} {}\n", shConventionName(convention),
                             describeShConvention(convention));
     return text;
-}
-
-std::string_view windowName(WindowChoice window) {
-    switch (window) {
-        case WindowChoice::automatic:
-            return "auto";
-        case WindowChoice::hann:
-            return "hann";
-        case WindowChoice::lanczos:
-            return "lanczos";
-        case WindowChoice::none:
-            break;
-    }
-    return "none";
 }
 
 /// All the lights that were named, each turned and scaled, as one.
@@ -132,9 +95,12 @@ void writeReconstruction(const Lighting& lighting, const std::string& path) {
 }
 
 void writeReportFolder(const LightArguments& arguments, LightSum sum, const Lighting& printed) {
-    const LightReport report{.name = fmt::format("{}", fmt::join(arguments.lights, " + ")),
+    std::vector<std::string> names;
+    for (const std::string& light : arguments.lights)
+        names.push_back(std::filesystem::path(light).filename().string());
+    const LightReport report{.name = fmt::format("{}", fmt::join(names, " + ")),
                              .command = arguments.command,
-                             .window = std::string(windowName(arguments.window)),
+                             .window = arguments.window.window,
                              .picture = std::move(sum.picture),
                              .lighting = std::move(sum.lighting),
                              .printed = printed};
@@ -195,9 +161,7 @@ void addLightCommand(CLI::App& app) {
     addParsedOption(*command, "--scale", arguments->factor, parseFactor, "S|R,G,B",
                     "multiply every light by a factor, or one a channel")
         ->default_str("1");
-    addParsedOption(*command, "--window", arguments->window, parseWindow, "auto|none|hann|lanczos",
-                    "lower ringing; auto: just so much that nothing is negative")
-        ->default_str("none");
+    addWindowOptions(*command, arguments->window);
     addParsedOption(*command, "--convention", arguments->convention, parseShConvention,
                     conventionNames(), "for whom to print, as below")
         ->default_str("cs");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -12,8 +13,10 @@
 #include "prt/image/tone_curve.h"
 #include "prt/io/environment_io.h"
 #include "prt/io/image_io.h"
-#include "prt/light/analytic_lights.h"
+#include "prt/light/deringing.h"
 #include "prt/light/environment.h"
+#include "prt/light/resampling.h"
+#include "prt/light/wavelet_lighting.h"
 
 namespace prt::cli {
 namespace {
@@ -24,14 +27,6 @@ constexpr int kPictureWidth = 512;
 constexpr int kSphereSize = 256;
 constexpr int kSphereBandCounts[] = {1, 2, 3};
 
-/// The lowest channel of an image.
-double findLowest(const Image& image) {
-    float lowest = std::numeric_limits<float>::max();
-    for (const Vec3f& pixel : image.pixels)
-        lowest = std::min({lowest, pixel.x, pixel.y, pixel.z});
-    return static_cast<double>(lowest);
-}
-
 /// The largest channel of the lighting's mean radiance, by which radiance is told.
 double findScale(const Lighting& lighting) {
     const Vec3d mean = lighting.coefficients[0] * (0.5 * std::numbers::inv_sqrtpi);
@@ -39,10 +34,34 @@ double findScale(const Lighting& lighting) {
     return largest > 0.0 ? largest : 1.0;
 }
 
-/// The lowest radiance of what coefficients stand for, over the mean radiance.
-double findRelativeLowest(const Lighting& lighting) {
-    constexpr int kWidth = 256;
-    return findLowest(reconstructLatLong(lighting, kWidth)) / findScale(lighting);
+double lowestChannel(const Vec3d& radiance) {
+    return std::min({radiance.x, radiance.y, radiance.z});
+}
+
+/// The lowest radiance of the first 1, 2, … bands over the mean radiance, each band times its
+/// factor.
+std::vector<double> findLowest(const Lighting& lighting, std::span<const double> factors) {
+    constexpr int kHeight = 128;
+    const auto bandCount = static_cast<std::size_t>(lighting.bandCount);
+    std::vector<double> lowest(bandCount, std::numeric_limits<double>::max());
+    std::vector<double> values(lighting.coefficients.size());
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < 2 * kHeight; ++x) {
+            evaluateSh(sphereTexel(SphereMap::latLong, 2 * kHeight, kHeight, x, y).direction,
+                       lighting.bandCount, values);
+            Vec3d radiance(0.0);
+            std::size_t i = 0;
+            for (std::size_t l = 0; l < bandCount; ++l) {
+                Vec3d band(0.0);
+                for (; i < (l + 1) * (l + 1); ++i)
+                    band += lighting.coefficients[i] * values[i];
+                radiance += band * factors[l];
+                lowest[l] = std::min(lowest[l], lowestChannel(radiance));
+            }
+        }
+    for (double& radiance : lowest)
+        radiance /= findScale(lighting);
+    return lowest;
 }
 
 /// ∫ |L|² dω over all channels: of an image, and of a band.
@@ -71,13 +90,14 @@ std::vector<BandFinding> examineBands(const LightReport& report) {
     for (int l = 0; l < kReportBandCount; ++l)
         inBands += sumBandSquares(report.lighting, l);
     const double whole = std::max(integrateSquare(report.picture), inBands);
+    const auto lowest = findLowest(report.lighting, std::vector<double>(kReportBandCount, 1.0));
     std::vector<BandFinding> findings;
     double held = 0.0;
     for (int bandCount = 1; bandCount <= kReportBandCount && whole > 0.0; ++bandCount) {
         const double energy = sumBandSquares(report.lighting, bandCount - 1);
         held += energy;
         findings.push_back({bandCount, energy / whole, std::sqrt(std::max(0.0, 1.0 - held / whole)),
-                            findRelativeLowest(truncate(report.lighting, bandCount))});
+                            lowest[static_cast<std::size_t>(bandCount - 1)]});
     }
     return findings;
 }
@@ -85,17 +105,31 @@ std::vector<BandFinding> examineBands(const LightReport& report) {
 std::vector<RingingFinding> examineRinging(const Lighting& lighting) {
     std::vector<RingingFinding> findings;
     for (int bandCount = 2; bandCount <= kMaxBandCount; ++bandCount) {
-        const Lighting plain = truncate(lighting, bandCount);
+        const Lighting bands = truncate(lighting, bandCount);
         const auto lowestUnder = [&](std::span<const double> factors) {
-            return findRelativeLowest(applyWindow(plain, factors));
+            return findLowest(bands, factors).back();
         };
-        const auto automatic = deringingFactors(plain);
-        findings.push_back({bandCount, findRelativeLowest(plain),
+        const auto automatic = deringingFactors(bands);
+        findings.push_back({bandCount, lowestUnder(windowFactors(ShWindow::none, bandCount)),
                             lowestUnder(windowFactors(ShWindow::hann, bandCount)),
                             lowestUnder(windowFactors(ShWindow::lanczos, bandCount)),
                             lowestUnder(automatic), automatic.back()});
     }
     return findings;
+}
+
+Environment makeCube(const Image& latLong) {
+    constexpr int kFaceSize = 64;
+    return resample({SphereMap::latLong, latLong}, SphereMap::verticalStrip, kFaceSize,
+                    6 * kFaceSize);
+}
+
+/// The light in its largest Haar wavelets, as lat-long; black where it would be negative.
+Image drawLargestWavelets(const WaveletLighting& wavelets, std::size_t count) {
+    Environment cube = reconstructCube(expand(selectLargest(wavelets, count)));
+    for (Vec3f& texel : cube.radiance.pixels)
+        texel = Vec3f(std::max(texel.x, 0.0f), std::max(texel.y, 0.0f), std::max(texel.z, 0.0f));
+    return resample(cube, SphereMap::latLong, kPictureWidth, kPictureWidth / 2).radiance;
 }
 
 /// The exposure under which the brightest side of a white diffuse sphere comes to 0.8.
@@ -161,6 +195,10 @@ std::string bandsPicture(int bandCount) {
     return fmt::format("bands-{:02}", bandCount);
 }
 
+std::string waveletsPicture(std::size_t count) {
+    return fmt::format("wavelets-{:05}", count);
+}
+
 std::string bandsSphere(int bandCount) {
     return fmt::format("sphere-bands-{}", bandCount);
 }
@@ -173,10 +211,11 @@ LightFindings examineLight(const LightReport& report) {
     findings.exposureStops = chooseExposure(report.lighting);
     findings.bands = examineBands(report);
     findings.ringing = examineRinging(report.lighting);
+    findings.waveletErrors = selectionErrors(projectWavelets(makeCube(report.picture)).coefficients,
+                                             kPicturedWaveletCounts);
     constexpr int kIrradianceBandCount = 5;
     findings.irradiance = measureIrradianceErrors(report.lighting, kIrradianceBandCount);
-    findings.worstIrradiance = measureIrradianceErrors(
-        directionalLighting(Vec3d(0, 0, 1), Vec3d(1.0), kReportBandCount), kIrradianceBandCount);
+    findings.worstIrradiance = worstIrradianceErrors(kIrradianceBandCount);
     return findings;
 }
 
@@ -190,12 +229,15 @@ void writeLightReport(const fs::path& folder, const LightReport& report) {
     for (const int bandCount : kPicturedBandCounts)
         write(bandsPicture(bandCount),
               reconstructLatLong(truncate(report.lighting, bandCount), kPictureWidth));
+    const WaveletLighting wavelets = projectWavelets(makeCube(report.picture));
+    for (const std::size_t count : kPicturedWaveletCounts)
+        write(waveletsPicture(count), drawLargestWavelets(wavelets, count));
     write(kPrintedPicture, reconstructLatLong(report.printed, kPictureWidth));
     const Lighting plain = truncate(report.lighting, report.printed.bandCount);
     writePng(folder / (std::string(kPlainSigns) + ".png"), drawSigns(plain));
     writePng(folder / (std::string(kPrintedSigns) + ".png"), drawSigns(report.printed));
     write(kMirrorSphere, drawMirrorSphere(report.picture));
-    write(kExactSphere, drawLitSphere(report.lighting));
+    write(kExactSphere, drawLitSphere(truncate(report.lighting, kMaxBandCount)));
     for (const int bandCount : kSphereBandCounts)
         write(bandsSphere(bandCount), drawLitSphere(truncate(report.lighting, bandCount)));
     write(kPrintedSphere, drawLitSphere(report.printed));

@@ -13,6 +13,8 @@ namespace prt::cli {
 /// The bands that a report projects a light onto, and those that it draws it in [Dachsbacher17].
 inline constexpr int kReportBandCount = 32;
 inline constexpr int kPicturedBandCounts[] = {1, 2, 4, 8, 16, 32};
+/// The Haar wavelets beside them: as many numbers as 10 bands have, and more [Ng03].
+inline constexpr std::size_t kPicturedWaveletCounts[] = {100, 1024, 4096};
 
 /// What `prt light --report` is about.
 struct LightReport {
@@ -45,6 +47,7 @@ struct LightFindings {
     float exposureStops = 0.0f;  ///< under which a white sphere in this light is well exposed
     std::vector<BandFinding> bands{};
     std::vector<RingingFinding> ringing{};
+    std::vector<double> waveletErrors{};  ///< one each of kPicturedWaveletCounts
     std::vector<IrradianceError> irradiance{};
     std::vector<IrradianceError> worstIrradiance{};  ///< the same of one directional light
 };
@@ -66,6 +69,7 @@ inline constexpr const char* kPrintedPicture = "printed";
 inline constexpr const char* kPrintedSigns = "printed-signs";
 inline constexpr const char* kPlainSigns = "plain-signs";
 std::string bandsPicture(int bandCount);
+std::string waveletsPicture(std::size_t count);
 std::string bandsSphere(int bandCount);
 
 }  // namespace prt::cli

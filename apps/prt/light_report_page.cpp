@@ -66,6 +66,22 @@ std::string formatReconstructions(const LightFindings& findings) {
     return html + "</div>\n";
 }
 
+std::string formatWavelets(const LightFindings& findings) {
+    std::string html =
+        "<h2>In wavelets instead</h2>\n<p class=\"soft\">The largest of the 24,576 Haar wavelets "
+        "of "
+        "a cube of 64 × 64 texels a face, chosen for this light. 100 numbers are as many as 10 "
+        "bands "
+        "have, 1,024 as many as 32. They keep small lights sharp and leave the dark coarse.</p>\n"
+        "<div class=\"pictures\">\n";
+    for (std::size_t k = 0; k < std::size(kPicturedWaveletCounts); ++k)
+        html += formatFigure(waveletsPicture(kPicturedWaveletCounts[k]),
+                             fmt::format("<b>{}</b> a channel: {} missing",
+                                         formatCount(kPicturedWaveletCounts[k], "wavelet"),
+                                         formatPercent(findings.waveletErrors[k])));
+    return html + "</div>\n";
+}
+
 /// Bars on a logarithmic scale, from 1e-6 to 1.
 std::string drawEnergyBars(const std::vector<BandFinding>& bands) {
     constexpr int kBarWidth = 30, kHeight = 220, kTop = 10, kLeft = 60;
@@ -162,7 +178,7 @@ std::string formatSpheres(const LightReport& report) {
         "−z with +y up.</p>\n<div class=\"pictures\">\n" +
         formatFigure(kMirrorSphere, "<b>Mirror</b>: the light itself") +
         formatFigure(kExactSphere,
-                     fmt::format("<b>Diffuse</b>, {}", formatBands(kReportBandCount)));
+                     fmt::format("<b>Diffuse</b>, {}", formatBands(kMaxBandCount)));
     for (const int bandCount : {1, 2, 3})
         html += formatFigure(bandsSphere(bandCount),
                              fmt::format("<b>Diffuse, {}</b>", formatBands(bandCount)));
@@ -253,9 +269,10 @@ std::string formatLightPage(const LightReport& report, const LightFindings& find
         report.name + " as a light",
         "What the light is, what so many bands of spherical harmonics hold of it, and "
         "what that does to the things it lights.",
-        formatCards(report, findings) + formatReconstructions(findings) + formatEnergy(findings) +
-            formatRinging(report, findings) + formatSpheres(report) + formatIrradiance(findings) +
-            formatCoefficients(report) + formatFacts(report, findings));
+        formatCards(report, findings) + formatReconstructions(findings) + formatWavelets(findings) +
+            formatEnergy(findings) + formatRinging(report, findings) + formatSpheres(report) +
+            formatIrradiance(findings) + formatCoefficients(report) +
+            formatFacts(report, findings));
 }
 
 }  // namespace prt::cli

@@ -119,4 +119,28 @@ std::vector<IrradianceError> measureIrradianceErrors(const Lighting& lighting, i
     return errors;
 }
 
+std::vector<IrradianceError> worstIrradianceErrors(int maxBandCount) {
+    PRT_ASSERT(maxBandCount >= 1, "there is at least one band");
+    constexpr int kHeightCount = 20000;  // even, so that no cell has the cosine's kink inside
+    const auto bandCount = static_cast<std::size_t>(maxBandCount);
+    const std::vector<double> cosine = clampedCosineZonal(maxBandCount);
+    std::vector<double> values(static_cast<std::size_t>(shCoefficientCount(maxBandCount)));
+    std::vector<IrradianceError> errors(bandCount);
+    for (int k = 0; k <= kHeightCount; ++k) {
+        const double height = 2.0 * k / kHeightCount - 1.0;
+        evaluateSh(Vec3d(std::sqrt(1.0 - height * height), 0.0, height), maxBandCount, values);
+        std::vector<double> bands(bandCount);
+        for (std::size_t l = 0; l < bandCount; ++l)
+            bands[l] =
+                cosine[l] * values[static_cast<std::size_t>(shIndex(static_cast<int>(l), 0))];
+        const double weight = (k == 0 || k == kHeightCount ? 0.5 : 1.0) / kHeightCount;
+        accumulateErrors(bands, std::max(height, 0.0), weight, errors);
+    }
+    for (std::size_t l = 0; l < bandCount; ++l) {
+        errors[l].bandCount = static_cast<int>(l) + 1;
+        errors[l].rms = std::sqrt(errors[l].rms);
+    }
+    return errors;
+}
+
 }  // namespace prt

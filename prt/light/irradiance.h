@@ -51,4 +51,8 @@ struct IrradianceError {
 std::vector<IrradianceError> measureIrradianceErrors(const Lighting& lighting,
                                                      int maxBandCount = 3);
 
+/// The same of light from one direction, the worst there is, against the clamped cosine itself: of
+/// nine coefficients 3.07 % on average, and 9.375 % at the most, edge-on.
+std::vector<IrradianceError> worstIrradianceErrors(int maxBandCount = 3);
+
 }  // namespace prt

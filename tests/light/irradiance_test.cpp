@@ -157,6 +157,21 @@ TEST(IrradianceErrors, OfADirectionalLightHaveTheirClosedForm) {
     }
 }
 
+TEST(IrradianceErrors, OfTheWorstLightAreThePublishedOnes) {
+    // Computed for the reference data: means of 1, 4, 9 and 25 coefficients.
+    const auto errors = worstIrradianceErrors(5);
+    EXPECT_NEAR(errors[0].mean, 0.281, 5e-4);
+    EXPECT_NEAR(errors[1].mean, 0.125, 5e-4);
+    EXPECT_NEAR(errors[2].mean, 0.0307, 5e-5);
+    EXPECT_NEAR(errors[2].rms, 0.0361, 5e-5);
+    EXPECT_NEAR(errors[2].largest, 0.09375, 1e-9);
+    EXPECT_NEAR(errors[4].mean, 0.0148, 5e-5);
+    // A light seen in many bands comes close.
+    const auto many = measureIrradianceErrors(sunLighting(Vec3d(0, 1, 0), 0.0, 50), 5);
+    for (std::size_t l = 0; l < 5; ++l)
+        EXPECT_NEAR(many[l].mean, errors[l].mean, 1e-3);
+}
+
 // "Average error under 3 % for any illumination" [Ramamoorthi01]: a single light is the worst.
 TEST(IrradianceErrors, OfNineCoefficientsAreWithinThoseOfADirectionalLight) {
     RandomStream random(3, 0);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "prt/light/lighting.h"
+
+namespace prt::cli {
+
+/// How ringing is lowered, as --window and --nonnegative say.
+struct WindowArguments {
+    std::string window = "none";
+    std::string nonNegative = "radiance";  ///< or "irradiance", or the path of an asset
+};
+
+/// Adds --window and --nonnegative.
+void addWindowOptions(CLI::App& command, WindowArguments& arguments);
+
+/// @throws Error  as readAsset for the asset; invalidOption if it has fewer bands than the light
+Lighting lowerRinging(const Lighting& lighting, const WindowArguments& arguments);
+
+}  // namespace prt::cli
