@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "prt/image/tone_curve.h"
-#include "prt/math/alias_table.h"
+#include "prt/light/environment_sampling.h"
 #include "prt/math/frame.h"
 
 namespace prt {
@@ -53,68 +52,6 @@ class SunLight final : public DistantLight {
     double radiance_ = 0.0;
 };
 
-/// Draws texels of an image of the sphere by their luminance and solid angle, and places in them.
-class TexelSampler {
-  public:
-    explicit TexelSampler(const Environment& environment)
-        : map_(environment.map),
-          width_(environment.radiance.width),
-          height_(environment.radiance.height),
-          table_(weighTexels(environment)) {}
-
-    struct Place {
-        std::size_t texel = 0;
-        Vec3d direction{0.0, 0.0, 0.0};
-        double density = 0.0;  // per steradian; 0 where the image shows nothing
-    };
-
-    Place sample(RandomStream& random) const {
-        const std::size_t texel = table_.sample(random.nextUnitDouble());
-        const auto width = static_cast<std::size_t>(width_);
-        const double x = static_cast<double>(texel % width) + random.nextUnitDouble();
-        const double y = static_cast<double>(texel / width) + random.nextUnitDouble();
-        return placeAt(texel, x, y);
-    }
-
-    Place find(const Vec3f& direction) const {
-        const Vec2f pixel = pixelFromDirection(map_, width_, height_, direction);
-        const int x = std::clamp(static_cast<int>(pixel.x), 0, width_ - 1);
-        const int y = std::clamp(static_cast<int>(pixel.y), 0, height_ - 1);
-        const auto texel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                           static_cast<std::size_t>(x);
-        return placeAt(texel, static_cast<double>(pixel.x), static_cast<double>(pixel.y));
-    }
-
-  private:
-    static std::vector<double> weighTexels(const Environment& environment) {
-        const Image& image = environment.radiance;
-        std::vector<double> weights;
-        weights.reserve(image.pixels.size());
-        for (int y = 0; y < image.height; ++y) {
-            for (int x = 0; x < image.width; ++x) {
-                const Vec3f& radiance = image.at(x, y);
-                const float brightness = luminance(
-                    Vec3f(std::abs(radiance.x), std::abs(radiance.y), std::abs(radiance.z)));
-                weights.push_back(
-                    static_cast<double>(brightness) *
-                    sphereTexel(environment.map, image.width, image.height, x, y).solidAngle);
-            }
-        }
-        return weights;
-    }
-
-    Place placeAt(std::size_t texel, double x, double y) const {
-        const SpherePlace place = spherePlace(map_, width_, height_, x, y);
-        if (place.solidAngleDensity <= 0.0) return {texel, place.direction, 0.0};
-        return {texel, place.direction, table_.probability(texel) / place.solidAngleDensity};
-    }
-
-    SphereMap map_;
-    int width_;
-    int height_;
-    AliasTable table_;
-};
-
 class EnvironmentLight final : public DistantLight {
   public:
     EnvironmentLight(Environment environment, const Mat3d& worldFromEnvironment)
@@ -124,7 +61,7 @@ class EnvironmentLight final : public DistantLight {
           sampler_(environment_) {}
 
     LightSample sample(RandomStream& random) const override {
-        const TexelSampler::Place place = sampler_.sample(random);
+        const EnvironmentPlace place = sampler_.sample(random);
         if (place.density == 0.0) return {};
         const Vec3d radiance(environment_.radiance.pixels[place.texel]);
         return {Vec3f(worldFromEnvironment_ * place.direction), Vec3f(radiance / place.density),
@@ -132,7 +69,7 @@ class EnvironmentLight final : public DistantLight {
     }
 
     LightValue evaluate(const Vec3f& direction) const override {
-        const TexelSampler::Place place = sampler_.find(environmentFromWorld_ * direction);
+        const EnvironmentPlace place = sampler_.find(environmentFromWorld_ * direction);
         return {environment_.radiance.pixels[place.texel], place.density};
     }
 
@@ -140,7 +77,7 @@ class EnvironmentLight final : public DistantLight {
     Environment environment_;
     Mat3d worldFromEnvironment_;
     Mat3d environmentFromWorld_;
-    TexelSampler sampler_;
+    EnvironmentSampler sampler_;
 };
 
 class BandLimitedLight final : public DistantLight {
@@ -154,7 +91,7 @@ class BandLimitedLight final : public DistantLight {
     }
 
     LightSample sample(RandomStream& random) const override {
-        const TexelSampler::Place place = sampler_.sample(random);
+        const EnvironmentPlace place = sampler_.sample(random);
         if (place.density == 0.0) return {};
         const Vec3f direction(place.direction);
         return {direction, radianceFrom(direction) / static_cast<float>(place.density),
@@ -182,7 +119,7 @@ class BandLimitedLight final : public DistantLight {
 
     Lighting lighting_;
     std::vector<Vec3f> coefficients_;
-    TexelSampler sampler_;
+    EnvironmentSampler sampler_;
 };
 
 }  // namespace
