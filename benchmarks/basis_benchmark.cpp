@@ -173,6 +173,25 @@ void projectEnvironment(benchmark::State& state, SphereMap map, int width, int h
     }
     state.SetItemsProcessed(state.iterations() * width * height);
 }
+/// What no projection can beat: reading the texels.
+void readEnvironment(benchmark::State& state) {
+    const Environment environment = makeEnvironment(SphereMap::latLong, 1024, 512);
+    const float* const numbers = &environment.radiance.pixels.data()->x;
+    constexpr std::size_t kCount = 3 * 1024 * 512, kLanes = 64;
+    for (auto _ : state) {
+        std::array<float, kLanes> sums{};
+        for (std::size_t i = 0; i < kCount; i += kLanes) {
+            for (std::size_t lane = 0; lane < kLanes; ++lane)
+                sums[lane] += numbers[i + lane];
+        }
+        benchmark::DoNotOptimize(sums);
+    }
+    state.SetBytesProcessed(state.iterations() * kCount * sizeof(float));
+}
+BENCHMARK(readEnvironment)
+    ->Name("projectEnvironment/reading_1024x512")
+    ->Unit(benchmark::kMillisecond);
+
 BENCHMARK_CAPTURE(projectEnvironment, lat_long_1024x512, SphereMap::latLong, 1024, 512)
     ->Arg(3)
     ->Arg(5)

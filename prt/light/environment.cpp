@@ -6,11 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <vector>
 
 #include "prt/base/assert.h"
-#include "prt/math/quadrature.h"
+#include "prt/light/lat_long_projection.h"
 
 namespace prt {
 namespace {
@@ -26,79 +25,6 @@ float findLargestFinite(const Image& radiance) {
         }
     }
     return largest;
-}
-
-/// Integrals of 1, cos φ, sin φ, cos 2φ, … over the width of each texel of a lat-long row, 2n − 1 a
-/// texel. φ runs about +y from +x to −z, which is from right to left.
-std::vector<double> integrateAzimuthFunctions(int width, int bandCount) {
-    const double texelAngle = 2.0 * kPi / width;
-    std::vector<double> integrals;
-    for (int x = 0; x < width; ++x) {
-        const double phi = kPi - texelAngle * (x + 0.5);
-        integrals.push_back(texelAngle);
-        for (int m = 1; m < bandCount; ++m) {
-            const double amplitude = 2.0 / m * std::sin(0.5 * m * texelAngle);
-            integrals.push_back(amplitude * std::cos(m * phi));
-            integrals.push_back(amplitude * std::sin(m * phi));
-        }
-    }
-    return integrals;
-}
-
-/// Integrals of y_lm(θ, 0) sin θ over the height of a lat-long row, θ from +y; n² numbers, of which
-/// those with m ≥ 0 count.
-std::vector<double> integratePolarFunctions(int height, int y, int bandCount,
-                                            std::span<const QuadratureNode> rule) {
-    std::vector<double> integrals(static_cast<std::size_t>(shCoefficientCount(bandCount)), 0.0);
-    std::vector<double> values(integrals.size());
-    for (const QuadratureNode& node : rule) {
-        const double theta = kPi / height * (y + 0.5 + 0.5 * node.position);
-        const double sine = std::sin(theta);
-        evaluateSh(Vec3d(sine, 0.0, std::cos(theta)), bandCount, values);
-        const double weight = 0.5 * kPi / height * node.weight * sine;
-        for (std::size_t i = 0; i < values.size(); ++i)
-            integrals[i] += weight * values[i];
-    }
-    return integrals;
-}
-
-/// Sums a row against the azimuth functions.
-void sumRow(std::span<const Vec3f> row, std::span<const double> azimuthFunctions,
-            std::span<Vec3d> sums) {
-    std::fill(sums.begin(), sums.end(), Vec3d(0.0));
-    const double* function = azimuthFunctions.data();
-    for (const Vec3f& texel : row) {
-        const Vec3d radiance(texel);
-        for (Vec3d& sum : sums)
-            sum += radiance * *function++;
-    }
-}
-
-/// Projects a lat-long image as if each texel were constant: in a frame whose pole is +y
-/// the functions are products of one of azimuth and one of polar angle, so that a row
-/// costs 2n − 1 sums instead of n².
-Lighting projectLatLong(const Image& image, int bandCount) {
-    constexpr int kPolarNodeCount = 16;  // exact to rounding even for an image of one row
-    const auto rule = gaussLegendre(kPolarNodeCount);
-    const auto azimuthFunctions = integrateAzimuthFunctions(image.width, bandCount);
-    std::vector<Vec3d> sums(static_cast<std::size_t>(2 * bandCount - 1));
-
-    Lighting aboutY(bandCount);
-    const auto width = static_cast<std::size_t>(image.width);
-    for (int y = 0; y < image.height; ++y) {
-        const std::span<const Vec3f> pixels(image.pixels);
-        sumRow(pixels.subspan(static_cast<std::size_t>(y) * width, width), azimuthFunctions, sums);
-        const auto polarFunctions = integratePolarFunctions(image.height, y, bandCount, rule);
-        for (int l = 0; l < bandCount; ++l) {
-            for (int m = -l; m <= l; ++m) {
-                const int azimuthFunction = m > 0 ? 2 * m - 1 : -2 * m;
-                aboutY.coefficients[static_cast<std::size_t>(shIndex(l, m))] +=
-                    sums[static_cast<std::size_t>(azimuthFunction)] *
-                    polarFunctions[static_cast<std::size_t>(shIndex(l, std::abs(m)))];
-            }
-        }
-    }
-    return rotate(aboutY, rotationX(-0.5 * kPi));
 }
 
 /// Projects any image, each texel as if all its light came through its centre.

@@ -8,6 +8,7 @@
 
 #include "prt/base/random.h"
 #include "prt/basis/sh_rotation.h"
+#include "tests/support/instruction_sets.h"
 
 namespace prt {
 namespace {
@@ -105,8 +106,7 @@ std::vector<Mat3d> makeRotations() {
     return rotations;
 }
 
-// A15
-TEST(RotateSh, AgreesWithTheMatrixForEveryBandCountAndOrthogonalMatrix) {
+void expectAgreesWithTheMatrix() {
     RandomStream random(15, 11);
     for (const Mat3d& rotation : makeRotations()) {
         for (int bandCount = 1; bandCount <= kMaxBandCount; ++bandCount) {
@@ -117,6 +117,11 @@ TEST(RotateSh, AgreesWithTheMatrixForEveryBandCountAndOrthogonalMatrix) {
             ASSERT_LT(maxDifference(turn(rotation, bandCount, floats), truth), kFloatTolerance);
         }
     }
+}
+
+// A15
+TEST(RotateSh, AgreesWithTheMatrixForEveryBandCountAndOrthogonalMatrix) {
+    onEveryInstructionSet(expectAgreesWithTheMatrix);
 }
 
 // A15, without any other rotation code of ours.
@@ -289,12 +294,14 @@ void expectBatchAgrees(const std::vector<Mat3d>& rotations, std::size_t first, i
 // A15
 TEST(RotateShBatch, AgreesWithTheMatrixForEveryBandCountAndOrthogonalMatrix) {
     const auto rotations = makeRotations();
-    for (std::size_t first = 0; first < rotations.size(); first += kShBatchSize) {
-        for (int bandCount = 1; bandCount <= kMaxBandCount; ++bandCount) {
-            expectBatchAgrees(rotations, first, bandCount, false);
-            expectBatchAgrees(rotations, first, bandCount, true);
+    onEveryInstructionSet([&] {
+        for (std::size_t first = 0; first < rotations.size(); first += kShBatchSize) {
+            for (int bandCount = 1; bandCount <= kMaxBandCount; ++bandCount) {
+                expectBatchAgrees(rotations, first, bandCount, false);
+                expectBatchAgrees(rotations, first, bandCount, true);
+            }
         }
-    }
+    });
 }
 
 }  // namespace
