@@ -19,7 +19,7 @@ using Vector = hn::Vec<Doubles>;
 
 /// The parts of a row that orders of one parity are summed against, each with red, green and blue
 /// apart: even orders against the first two, odd orders against the others.
-enum Part : std::size_t { kEvenCosine, kEvenSine, kOddCosine, kOddSine, kPartCount };
+enum Part : std::size_t { kEvenCosine, kEvenSine, kOddCosine, kOddSine };
 
 struct Channels {
     Vector rgb[3];

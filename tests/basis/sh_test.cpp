@@ -120,6 +120,37 @@ TEST(Sh, FunctionsAreOrthonormal) {
         EXPECT_LT(gramError(bandCount), kTolerance);
 }
 
+// A1
+TEST(Sh, FloatFunctionsAreOrthonormal) {
+    constexpr double kFloatTolerance = 1e-5;
+    constexpr std::size_t kCount = shCoefficientCount(kMaxBandCount);
+    std::vector<double> gram(kCount * kCount, 0.0);
+    std::vector<float> values(kCount);
+    for (const auto& [direction, weight] : sphereQuadrature(2 * (kMaxBandCount - 1))) {
+        evaluateSh(Vec3f(direction), kMaxBandCount, values);
+        for (std::size_t i = 0; i < kCount; ++i) {
+            for (std::size_t j = 0; j < kCount; ++j)
+                gram[i * kCount + j] += weight * values[i] * values[j];
+        }
+    }
+    for (std::size_t i = 0; i < kCount; ++i) {
+        for (std::size_t j = 0; j < kCount; ++j)
+            ASSERT_NEAR(gram[i * kCount + j], i == j ? 1.0 : 0.0, kFloatTolerance) << i << " " << j;
+    }
+}
+
+TEST(Sh, StraightLineCodeIsTheRecurrenceUnrolled) {
+    constexpr double kTolerance = 1e-13;
+    for (const SphereNode& node : sphereQuadrature(30)) {
+        const auto recurrence = evaluate(node.direction, kMaxBandCount + 1);
+        for (int bandCount = 1; bandCount <= kMaxBandCount; ++bandCount) {
+            const auto values = evaluate(node.direction, bandCount);
+            for (std::size_t i = 0; i < values.size(); ++i)
+                ASSERT_NEAR(values[i], recurrence[i], kTolerance) << bandCount << " " << i;
+        }
+    }
+}
+
 // T-8: the Laplacian by a seven-point difference of the function extended constantly along rays.
 TEST(Sh, FunctionsAreEigenfunctionsOfTheLaplacian) {
     constexpr double kStep = 1e-3;
@@ -144,6 +175,11 @@ TEST(Sh, FunctionsAreEigenfunctionsOfTheLaplacian) {
 TEST(Sh, SquaresOfABandSumToAConstant) {
     constexpr double kRelativeTolerance = 1e-11;
     std::vector<Vec3d> directions = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}};
+    for (const double nearPole : {1e-2, 1e-5, 1e-8, 1e-30, 1e-160, 1e-300, 5e-324}) {
+        directions.push_back(
+            Vec3d(nearPole, -nearPole, std::sqrt(1.0 - 2.0 * nearPole * nearPole)));
+        directions.push_back(-directions.back());
+    }
     for (const SphereNode& node : sphereQuadrature(6))
         directions.push_back(node.direction);
     for (const int bandCount : {10, 64, 256}) {
