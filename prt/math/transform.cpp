@@ -47,6 +47,10 @@ Mat3d rotationAbout(const Vec3d& axis, double angleRadians) {
                  t * x * z - s * y, t * y * z + s * x, t * z * z + c);
 }
 
+Mat3d rotationFromQuaternion(const Imath::Quatd& quaternion) {
+    return quaternion.toMatrix33().transposed();
+}
+
 Affine3d operator*(const Affine3d& outer, const Affine3d& inner) {
     return {outer.linear * inner.linear, transformPoint(outer, inner.translation)};
 }

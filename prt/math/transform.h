@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Imath/ImathMatrix.h>
+#include <Imath/ImathQuat.h>
 
 #include "prt/math/vector.h"
 
@@ -21,6 +22,10 @@ Mat3d rotationZ(double angleRadians);
 
 /// Active right-handed rotation about a unit axis.
 Mat3d rotationAbout(const Vec3d& axis, double angleRadians);
+
+/// The rotation of a unit quaternion, r = cos(θ/2) and v = sin(θ/2) · axis, as rotationAbout gives
+/// it; q and −q are the same. (Imath's own toMatrix33 is its transpose, for row vectors.)
+Mat3d rotationFromQuaternion(const Imath::Quatd& quaternion);
 
 /// An affine map p ↦ linear·p + translation, named destinationFromSource
 /// and chained left to right (C9).

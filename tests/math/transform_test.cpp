@@ -53,6 +53,50 @@ TEST(Transform, RotationAboutAnAxisIsThePublishedMatrix) {
     EXPECT_TRUE(rotation.equalWithAbsError(published, kPrintedPrecision));
 }
 
+Imath::Quatd randomQuaternion(RandomStream& random) {
+    return Imath::Quatd(random.nextUnitDouble() - 0.5, randomVector(random)).normalized();
+}
+
+TEST(Transform, AQuaternionIsTheRotationAboutItsAxis) {
+    RandomStream random(1, 1);
+    for (int i = 0; i < 100; ++i) {
+        const Vec3d axis = randomVector(random).normalized();
+        const double angle = 2.0 * std::numbers::pi * random.nextUnitDouble();
+        const Imath::Quatd quaternion(std::cos(0.5 * angle), axis * std::sin(0.5 * angle));
+        EXPECT_TRUE(rotationFromQuaternion(quaternion)
+                        .equalWithAbsError(rotationAbout(axis, angle), kRounding));
+    }
+    EXPECT_EQ(rotationFromQuaternion(Imath::Quatd()), Mat3d());
+}
+
+TEST(Transform, AQuaternionAndItsNegativeAreTheSameRotation) {
+    RandomStream random(1, 2);
+    for (int i = 0; i < 100; ++i) {
+        const Imath::Quatd quaternion = randomQuaternion(random);
+        EXPECT_EQ(rotationFromQuaternion(-quaternion), rotationFromQuaternion(quaternion));
+    }
+}
+
+TEST(Transform, ProductsOfQuaternionsAreProductsOfMatrices) {
+    RandomStream random(1, 3);
+    for (int i = 0; i < 100; ++i) {
+        const Imath::Quatd a = randomQuaternion(random), b = randomQuaternion(random);
+        EXPECT_TRUE(rotationFromQuaternion(a * b).equalWithAbsError(
+            rotationFromQuaternion(a) * rotationFromQuaternion(b), kRounding));
+    }
+}
+
+// Files with z up become ours, with y up, by a quarter turn about x that keeps x.
+TEST(Transform, SwappingTheUpAxisIsARotation) {
+    const Mat3d yUpFromZUp = rotationX(-std::numbers::pi / 2);
+    expectNear(yUpFromZUp * kZ, kY);
+    expectNear(yUpFromZUp * kX, kX);
+    expectNear(yUpFromZUp * kY, -kZ);
+    EXPECT_NEAR(yUpFromZUp.determinant(), 1.0, kRounding);
+    const Imath::Quatd quaternion(std::sqrt(0.5), Vec3d(-std::sqrt(0.5), 0.0, 0.0));
+    EXPECT_TRUE(rotationFromQuaternion(quaternion).equalWithAbsError(yUpFromZUp, kRounding));
+}
+
 TEST(Transform, NormalsStayPerpendicularUnderAnyLinearMap) {
     RandomStream random(1, 0);
     for (int i = 0; i < 100; ++i) {
