@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "prt/base/random.h"
+#include "prt/basis/haar_product.h"
 #include "prt/basis/sh.h"
 #include "prt/basis/sh_rotation.h"
 #include "prt/light/analytic_lights.h"
 #include "prt/light/deringing.h"
 #include "prt/light/environment.h"
+#include "prt/light/wavelet_lighting.h"
 #include "prt/math/quadrature.h"
 #include "prt/math/sampling.h"
 
@@ -236,6 +238,80 @@ BENCHMARK_CAPTURE(deringSuns, irradiance, NonNegative::irradiance)
     ->Arg(5)
     ->Arg(10)
     ->Unit(benchmark::kMillisecond);
+
+// ── Haar wavelets of a cube ──────────────────────────────────────────────────────────────────────
+
+/// What no transform can beat: copying as many bytes.
+void copyCube(benchmark::State& state) {
+    const std::vector<float> values(static_cast<std::size_t>(18 * state.range(0) * state.range(0)));
+    std::vector<float> copy(values.size());
+    for (auto _ : state) {
+        std::memcpy(copy.data(), values.data(), values.size() * sizeof(float));
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(copyCube)->Name("haar/copying_cube")->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond);
+
+void projectCube(benchmark::State& state) {
+    const int size = static_cast<int>(state.range(0));
+    const Environment cube = makeEnvironment(SphereMap::verticalStrip, size, 6 * size);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(projectWavelets(cube));
+}
+BENCHMARK(projectCube)->Name("haar/project_cube")->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond);
+
+WaveletLighting makeWavelets(int size) {
+    return projectWavelets(makeEnvironment(SphereMap::verticalStrip, size, 6 * size));
+}
+
+void reconstructWavelets(benchmark::State& state) {
+    const WaveletLighting lighting = makeWavelets(static_cast<int>(state.range(0)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(reconstructCube(lighting));
+}
+BENCHMARK(reconstructWavelets)
+    ->Name("haar/reconstruct_cube")
+    ->Arg(64)
+    ->Arg(256)
+    ->Unit(benchmark::kMillisecond);
+
+void selectWavelets(benchmark::State& state) {
+    const WaveletLighting lighting = makeWavelets(static_cast<int>(state.range(0)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(selectLargest(lighting, 100));
+}
+BENCHMARK(selectWavelets)
+    ->Name("haar/select_100")
+    ->Arg(64)
+    ->Arg(256)
+    ->Unit(benchmark::kMillisecond);
+
+void multiplyWavelets(benchmark::State& state) {
+    const auto count = static_cast<std::size_t>(state.range(0) * state.range(0));
+    const std::vector<float> a(count, 0.5f), b(count, 0.25f);
+    std::vector<float> product(count);
+    for (auto _ : state) {
+        multiplyHaar(a, b, product);
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(multiplyWavelets)->Name("haar/product_of_squares")->Arg(64);
+
+/// The same by way of the texels.
+void multiplyTexels(benchmark::State& state) {
+    const auto count = static_cast<std::size_t>(state.range(0) * state.range(0));
+    const std::vector<float> a(count, 0.5f), b(count, 0.25f);
+    std::vector<float> texelsA(count), texelsB(count), product(count);
+    for (auto _ : state) {
+        reconstructHaar(a, texelsA);
+        reconstructHaar(b, texelsB);
+        for (std::size_t t = 0; t < count; ++t)
+            texelsA[t] *= texelsB[t];
+        projectHaar(texelsA, product);
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(multiplyTexels)->Name("haar/product_by_texels")->Arg(64);
 
 }  // namespace
 }  // namespace prt
