@@ -65,6 +65,37 @@ double measureCoverage(const Environment& environment, int x, int y, const Vec3d
     return solidAngle;
 }
 
+/// The terms of a row's Fourier series in azimuth, Σ_l L_lm p_lm for each m ≥ 0 and −m.
+///
+/// @param polar  y_lm of the row's polar angle at azimuth 0
+void sumDegrees(const Lighting& lighting, std::span<const double> polar, std::span<Vec3d> cosines,
+                std::span<Vec3d> sines) {
+    for (int m = 0; m < lighting.bandCount; ++m) {
+        Vec3d cosine(0.0), sine(0.0);
+        for (int l = m; l < lighting.bandCount; ++l) {
+            const double value = polar[static_cast<std::size_t>(shIndex(l, m))];
+            cosine += lighting.coefficients[static_cast<std::size_t>(shIndex(l, m))] * value;
+            sine += lighting.coefficients[static_cast<std::size_t>(shIndex(l, -m))] * value;
+        }
+        cosines[static_cast<std::size_t>(m)] = cosine;
+        sines[static_cast<std::size_t>(m)] = m > 0 ? sine : Vec3d(0.0);
+    }
+}
+
+Vec3d sumOrders(std::span<const Vec3d> cosines, std::span<const Vec3d> sines,
+                double azimuthRadians) {
+    const double cosStep = std::cos(azimuthRadians), sinStep = std::sin(azimuthRadians);
+    double cosine = 1.0, sine = 0.0;
+    Vec3d sum(0.0);
+    for (std::size_t m = 0; m < cosines.size(); ++m) {
+        sum += cosines[m] * cosine + sines[m] * sine;
+        const double nextCosine = cosStep * cosine - sinStep * sine;
+        sine = cosStep * sine + sinStep * cosine;
+        cosine = nextCosine;
+    }
+    return sum;
+}
+
 }  // namespace
 
 SanitiseReport sanitise(Image& radiance) {
@@ -139,12 +170,18 @@ void addDisc(Environment& environment, const Vec3d& direction, double halfAngleR
 
 Image reconstructLatLong(const Lighting& lighting, int width) {
     PRT_ASSERT(width >= 2 && width % 2 == 0, "the width of a lat-long image is twice its height");
+    // About +y as the pole a row is a Fourier series in azimuth, of 2n − 1 terms, not n².
+    const Lighting aboutY = rotate(lighting, rotationX(0.5 * kPi));
+    const auto bandCount = static_cast<std::size_t>(lighting.bandCount);
+    std::vector<double> polar(aboutY.coefficients.size());
+    std::vector<Vec3d> cosines(bandCount), sines(bandCount);
     Image image(width, width / 2);
     for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            const SphereTexel texel = sphereTexel(SphereMap::latLong, width, image.height, x, y);
-            image.at(x, y) = Vec3f(reconstruct(lighting, texel.direction));
-        }
+        const double theta = kPi * (y + 0.5) / image.height;
+        evaluateSh(Vec3d(std::sin(theta), 0.0, std::cos(theta)), lighting.bandCount, polar);
+        sumDegrees(aboutY, polar, cosines, sines);
+        for (int x = 0; x < width; ++x)
+            image.at(x, y) = Vec3f(sumOrders(cosines, sines, kPi - 2.0 * kPi * (x + 0.5) / width));
     }
     return image;
 }
