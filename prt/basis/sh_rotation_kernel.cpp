@@ -2,6 +2,7 @@
 //   [Dachsbacher17]  Precomputed radiance transfer
 //   [Pinchon07]      Rotation matrices for real spherical harmonics
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -73,12 +74,19 @@ HWY_INLINE void computeMultiples(int bandCount, Turn<V>& turn) {
     }
 }
 
+template <class V>
+HWY_INLINE void computeMultiples(int bandCount, Turns<V>& turns) {
+    computeMultiples<2>(bandCount, turns.alpha);
+    computeMultiples<2>(bandCount, turns.minusBeta);
+    computeMultiples<2>(bandCount, turns.gamma);
+}
+
 /// Finds the three turns of an orthogonal matrix r, row-major.
 ///
 /// α turns the image of z into the plane of y and z; where it lies in the pole, any α will do. γ is
 /// read off what is left when α is undone, and so makes good what rounding did to α near the pole.
 template <class D, class V>
-HWY_INLINE Turns<V> findTurns(D d, const V (&r)[9], int bandCount) {
+HWY_INLINE Turns<V> findTurns(D d, const V (&r)[9]) {
     using Real = hn::TFromD<D>;
     const V determinant =
         hn::MulAdd(r[6], hn::MulSub(r[1], r[5], hn::Mul(r[2], r[4])),
@@ -102,9 +110,6 @@ HWY_INLINE Turns<V> findTurns(D d, const V (&r)[9], int bandCount) {
         hn::Mul(turns.sign, hn::MulAdd(cosAlpha, r[0], hn::Mul(sinAlpha, r[3])));
     turns.gamma.sine[1] =
         hn::Mul(hn::Neg(turns.sign), hn::MulAdd(cosAlpha, r[1], hn::Mul(sinAlpha, r[4])));
-    computeMultiples<2>(bandCount, turns.alpha);
-    computeMultiples<2>(bandCount, turns.minusBeta);
-    computeMultiples<2>(bandCount, turns.gamma);
     return turns;
 }
 
@@ -181,21 +186,30 @@ void rotateBatch(int bandCount, const float* rotations, const float* source, flo
         V matrix[9];
         for (std::size_t entry = 0; entry < 9; ++entry)
             matrix[entry] = hn::LoadU(d, rotations + kShBatchSize * entry + j);
-        const Turns<V> turns = findTurns(d, matrix, bandCount);
+        Turns<V> turns = findTurns(d, matrix);
+        computeMultiples(bandCount, turns);
         hn::StoreU(hn::LoadU(d, source + j), d, rotated + j);
         rotateBands<kShBatchSize, 1>(d, turns, bandCount, source + j, rotated + j);
     }
 }
 
+/// The broadcast entries of a matrix.
+template <class D>
+HWY_INLINE Turns<hn::Vec<D>> findTurns(D d, const Mat3d& rotation) {
+    hn::Vec<D> matrix[9];
+    for (int entry = 0; entry < 9; ++entry) {
+        matrix[entry] = hn::Set(d, static_cast<hn::TFromD<D>>(rotation[entry / 3][entry % 3]));
+    }
+    return findTurns(d, matrix);
+}
+
+/// Rotates one function after the other, in vectors of one lane.
 template <class Real>
 HWY_INLINE void rotateChannels(const Mat3d& rotation, int bandCount, std::size_t channelCount,
                                const Real* source, Real* rotated) {
     const hn::CappedTag<Real, 1> d;
-    using V = hn::Vec<decltype(d)>;
-    V matrix[9];
-    for (int entry = 0; entry < 9; ++entry)
-        matrix[entry] = hn::Set(d, static_cast<Real>(rotation[entry / 3][entry % 3]));
-    const Turns<V> turns = findTurns(d, matrix, bandCount);
+    Turns<hn::Vec<decltype(d)>> turns = findTurns(d, rotation);
+    computeMultiples(bandCount, turns);
     const auto channelSize = static_cast<std::size_t>(shCoefficientCount(bandCount));
     for (std::size_t i = 0; i < channelCount * channelSize; i += channelSize) {
         rotated[i] = source[i];
@@ -203,15 +217,186 @@ HWY_INLINE void rotateChannels(const Mat3d& rotation, int bandCount, std::size_t
     }
 }
 
-void rotateFloats(const Mat3d& rotation, int bandCount, std::size_t channelCount,
-                  const float* source, float* rotated) {
-    rotateChannels(rotation, bandCount, channelCount, source, rotated);
-}
-
 void rotateDoubles(const Mat3d& rotation, int bandCount, std::size_t channelCount,
                    const double* source, double* rotated) {
     rotateChannels(rotation, bandCount, channelCount, source, rotated);
 }
+
+#if HWY_TARGET == HWY_SCALAR
+void rotateFloats(const Mat3d& rotation, int bandCount, std::size_t channelCount,
+                  const float* source, float* rotated) {
+    rotateChannels(rotation, bandCount, channelCount, source, rotated);
+}
+#else
+// One function of floats: a vector holds the coefficients of orders e = 2j and o = 2j + 1, as
+// (c_e, c_o, c_−o, c_−e), so that a turn about z pairs each lane with its mirror image.
+
+using Quad = hn::FixedTag<float, 4>;
+using QuadVector = hn::Vec<Quad>;
+constexpr int kMaxQuads = (kMaxBandCount + 1) / 2;
+
+constexpr int quadCount(int l) {
+    return l / 2 + 1;
+}
+
+/// A turn about z for each vector: cosines, and sines that are negative in the first two lanes.
+struct QuadTurn {
+    QuadVector cosine[kMaxQuads];
+    QuadVector sine[kMaxQuads];
+};
+
+HWY_INLINE QuadVector setQuad(float a, float b, float c, float e) {
+    HWY_ALIGN const float lanes[4] = {a, b, c, e};
+    return hn::Load(Quad(), lanes);
+}
+
+/// Orders 0 and 1, and then the next two by a turn of twice the angle.
+template <int j>
+HWY_INLINE void extendQuadTurn(int bandCount, QuadVector cosTwice, QuadVector sinTwice,
+                               QuadTurn& turn) {
+    if constexpr (j < kMaxQuads) {
+        if (2 * j >= bandCount) return;
+        const QuadVector cosine = turn.cosine[j - 1], sine = turn.sine[j - 1];
+        turn.cosine[j] = hn::MulSub(cosine, cosTwice, hn::Mul(sine, sinTwice));
+        turn.sine[j] = hn::MulAdd(sine, cosTwice, hn::Mul(cosine, sinTwice));
+        extendQuadTurn<j + 1>(bandCount, cosTwice, sinTwice, turn);
+    }
+}
+
+HWY_INLINE QuadTurn makeQuadTurn(int bandCount, QuadVector cosine, QuadVector sine) {
+    const QuadVector sign = setQuad(-1.0f, -1.0f, 1.0f, 1.0f);
+    const QuadVector signedSine = hn::Mul(sign, sine);
+    const QuadVector sinTwice = hn::Mul(hn::Add(signedSine, signedSine), cosine);
+    const QuadVector cosTwice = hn::MulSub(cosine, cosine, hn::Mul(sine, sine));
+    QuadTurn turn;
+    turn.cosine[0] =
+        hn::MulAdd(setQuad(0.0f, 1.0f, 1.0f, 0.0f), cosine, setQuad(1.0f, 0.0f, 0.0f, 1.0f));
+    turn.sine[0] = hn::Mul(setQuad(0.0f, -1.0f, 1.0f, 0.0f), sine);
+    extendQuadTurn<1>(bandCount, cosTwice, sinTwice, turn);
+    return turn;
+}
+
+/// E in blocks of four: what vector `column`, its lanes swapped as in exchangeQuads, gives to
+/// vector `row`.
+template <int l>
+constexpr auto makeExchangeQuads() {
+    constexpr int kCount = quadCount(l);
+    std::array<float, 4 * kCount * kCount> quads{};
+    for (int block = 0; block < kCount * kCount; ++block) {
+        const int row = 2 * (block / kCount), column = 2 * (block % kCount);
+        const int swap = l % 2;
+        const int rows[4] = {row, row + 1, -row - 1, -row};
+        const int columns[4] = {column + swap, column + 1 - swap, -column - swap,
+                                -column - 1 + swap};
+        for (int lane = 0; lane < 4; ++lane) {
+            const int m = rows[lane], k = columns[lane];
+            const bool isPresent =
+                m <= l && -m <= l && k <= l && -k <= l && (lane < 2 || (m != 0 && k != 0));
+            const auto place = static_cast<std::size_t>(4 * block + lane);
+            quads[place] = isPresent ? static_cast<float>(exchangeEntry(l, m, k)) : 0.0f;
+        }
+    }
+    return quads;
+}
+
+template <int l>
+HWY_INLINE void loadQuads(const float* centre, QuadVector* band) {
+    const Quad d;
+    const hn::Half<Quad> half;
+    for (int j = 0; 2 * j + 1 <= l; ++j)
+        band[j] =
+            hn::Combine(d, hn::LoadU(half, centre - 2 * j - 1), hn::LoadU(half, centre + 2 * j));
+    // Lanes that no order fills hold numbers of the band, for E to multiply with zeros.
+    if constexpr (l % 2 == 0) {
+        band[l / 2] = hn::ConcatUpperLower(d, hn::Set(d, centre[-l]), hn::Set(d, centre[l]));
+    }
+}
+
+template <int l>
+HWY_INLINE void storeQuads(const QuadVector* band, float* centre) {
+    const Quad d;
+    const hn::Half<Quad> half;
+    for (int j = 0; 2 * j + 1 <= l; ++j) {
+        hn::StoreU(hn::UpperHalf(half, band[j]), half, centre - 2 * j - 1);
+        hn::StoreU(hn::LowerHalf(half, band[j]), half, centre + 2 * j);
+    }
+    if constexpr (l % 2 == 0) {
+        centre[l] = hn::GetLane(band[l / 2]);
+        centre[-l] = hn::GetLane(hn::Reverse(d, band[l / 2]));
+    }
+}
+
+template <int l>
+HWY_INLINE void turnQuads(const QuadTurn& turn, QuadVector* band) {
+    for (int j = 0; j < quadCount(l); ++j) {
+        const QuadVector mirrored = hn::Mul(turn.sine[j], hn::Reverse(Quad(), band[j]));
+        band[j] = hn::MulAdd(turn.cosine[j], band[j], mirrored);
+    }
+}
+
+template <int l>
+HWY_INLINE void exchangeQuads(QuadVector* band) {
+    constexpr int kCount = quadCount(l);
+    HWY_ALIGN static constexpr auto kExchange = makeExchangeQuads<l>();
+    const Quad d;
+    QuadVector swapped[kCount];
+    for (int j = 0; j < kCount; ++j) {
+        const QuadVector neighbours = hn::Shuffle2301(band[j]);
+        swapped[j] = l % 2 == 0 ? hn::ConcatUpperLower(d, neighbours, band[j])
+                                : hn::ConcatUpperLower(d, band[j], neighbours);
+    }
+    const float* entries = kExchange.data();
+    for (int row = 0; row < kCount; ++row) {
+        band[row] = hn::Mul(hn::Load(d, entries), swapped[0]);
+        for (int column = 1; column < kCount; ++column)
+            band[row] = hn::MulAdd(hn::Load(d, entries + 4 * column), swapped[column], band[row]);
+        entries += 4 * kCount;
+    }
+}
+
+struct QuadTurns {
+    QuadTurn alpha, minusBeta, gamma;
+    QuadVector sign;
+};
+
+/// Rotates the bands from degree l ≥ 1 up.
+template <int l>
+HWY_INLINE void rotateQuads(const QuadTurns& turns, int bandCount, const float* source,
+                            float* rotated) {
+    if constexpr (l < kMaxBandCount) {
+        if (l >= bandCount) return;
+        QuadVector band[quadCount(l)];
+        loadQuads<l>(source + shIndex(l, 0), band);
+        if constexpr (l % 2 == 1) {
+            for (QuadVector& quad : band)
+                quad = hn::Mul(turns.sign, quad);
+        }
+        turnQuads<l>(turns.gamma, band);
+        exchangeQuads<l>(band);
+        turnQuads<l>(turns.minusBeta, band);
+        exchangeQuads<l>(band);
+        turnQuads<l>(turns.alpha, band);
+        storeQuads<l>(band, rotated + shIndex(l, 0));
+        rotateQuads<l + 1>(turns, bandCount, source, rotated);
+    }
+}
+
+void rotateFloats(const Mat3d& rotation, int bandCount, std::size_t channelCount,
+                  const float* source, float* rotated) {
+    const auto found = findTurns(Quad(), rotation);
+    const auto makeTurn = [bandCount](const Turn<QuadVector>& turn) HWY_ATTR {
+        return makeQuadTurn(bandCount, turn.cosine[1], turn.sine[1]);
+    };
+    const QuadTurns turns = {makeTurn(found.alpha), makeTurn(found.minusBeta),
+                             makeTurn(found.gamma), found.sign};
+    const auto channelSize = static_cast<std::size_t>(shCoefficientCount(bandCount));
+    for (std::size_t i = 0; i < channelCount * channelSize; i += channelSize) {
+        rotated[i] = source[i];
+        rotateQuads<1>(turns, bandCount, source + i, rotated + i);
+    }
+}
+
+#endif  // HWY_TARGET == HWY_SCALAR
 
 }  // namespace
 }  // namespace prt::HWY_NAMESPACE
