@@ -83,8 +83,9 @@ HWY_INLINE void computeMultiples(int bandCount, Turns<V>& turns) {
 
 /// Finds the three turns of an orthogonal matrix r, row-major.
 ///
-/// α turns the image of z into the plane of y and z; where it lies in the pole, any α will do. γ is
-/// read off what is left when α is undone, and so makes good what rounding did to α near the pole.
+/// γ turns into the plane of y and z what becomes z; where that lies in the pole, any γ will do. α
+/// is read off what is left when γ is undone, and so makes good what rounding did to γ near the
+/// pole.
 template <class D, class V>
 HWY_INLINE Turns<V> findTurns(D d, const V (&r)[9]) {
     using Real = hn::TFromD<D>;
@@ -92,24 +93,25 @@ HWY_INLINE Turns<V> findTurns(D d, const V (&r)[9]) {
         hn::MulAdd(r[6], hn::MulSub(r[1], r[5], hn::Mul(r[2], r[4])),
                    hn::MulAdd(r[7], hn::MulSub(r[2], r[3], hn::Mul(r[0], r[5])),
                               hn::Mul(r[8], hn::MulSub(r[0], r[4], hn::Mul(r[1], r[3])))));
-    Turns<V> turns;
-    turns.sign = hn::CopySign(hn::Set(d, Real(1)), determinant);
+    const V one = hn::Set(d, Real(1));
+    const V sign = hn::CopySign(one, determinant);
 
-    const V square = hn::MulAdd(r[2], r[2], hn::Mul(r[5], r[5]));
+    // A root and a quotient at once are faster than one after the other.
+    const V square = hn::MulAdd(r[6], r[6], hn::Mul(r[7], r[7]));
     const auto isPole = hn::Lt(square, hn::Set(d, std::numeric_limits<Real>::min()));
     const V sinBeta = hn::Sqrt(square);
-    const V scale = hn::Div(turns.sign, sinBeta);
-    const V sinAlpha = hn::IfThenZeroElse(isPole, hn::Mul(scale, r[2]));
-    const V cosAlpha = hn::IfThenElse(isPole, hn::Set(d, Real(1)), hn::Neg(hn::Mul(scale, r[5])));
+    const V scale = hn::Mul(sinBeta, hn::Div(one, square));
+    const V sinGamma = hn::IfThenZeroElse(isPole, hn::Mul(scale, hn::Mul(sign, r[6])));
+    const V cosGamma = hn::IfThenElse(isPole, one, hn::Mul(scale, hn::Mul(sign, r[7])));
 
-    turns.alpha.cosine[1] = cosAlpha;
-    turns.alpha.sine[1] = sinAlpha;
-    turns.minusBeta.cosine[1] = hn::Mul(turns.sign, r[8]);
+    Turns<V> turns;
+    turns.sign = sign;
+    turns.gamma.cosine[1] = cosGamma;
+    turns.gamma.sine[1] = sinGamma;
+    turns.minusBeta.cosine[1] = hn::Mul(sign, r[8]);
     turns.minusBeta.sine[1] = hn::Neg(sinBeta);
-    turns.gamma.cosine[1] =
-        hn::Mul(turns.sign, hn::MulAdd(cosAlpha, r[0], hn::Mul(sinAlpha, r[3])));
-    turns.gamma.sine[1] =
-        hn::Mul(hn::Neg(turns.sign), hn::MulAdd(cosAlpha, r[1], hn::Mul(sinAlpha, r[4])));
+    turns.alpha.cosine[1] = hn::Mul(sign, hn::MulSub(cosGamma, r[0], hn::Mul(sinGamma, r[1])));
+    turns.alpha.sine[1] = hn::Mul(sign, hn::MulSub(cosGamma, r[3], hn::Mul(sinGamma, r[4])));
     return turns;
 }
 
@@ -415,9 +417,58 @@ namespace {
 std::size_t countChannels(int bandCount, std::size_t sourceSize, std::size_t rotatedSize) {
     PRT_ASSERT(bandCount >= 1, "there is at least one band");
     const auto channelSize = static_cast<std::size_t>(shCoefficientCount(bandCount));
-    PRT_ASSERT(sourceSize % channelSize == 0 && rotatedSize == sourceSize,
+    // Most often there is one, and a division takes as long as rotating a band.
+    const std::size_t count = sourceSize == channelSize ? 1 : sourceSize / channelSize;
+    PRT_ASSERT(count * channelSize == sourceSize && rotatedSize == sourceSize,
                "there is one coefficient a function and channel");
-    return sourceSize / channelSize;
+    return count;
+}
+
+/// Degree 1 is a vector v, f(ω) ~ v·ω: its functions are −y, z and −x (C2).
+template <class Real>
+void rotateDegree1(const Imath::Matrix33<Real>& r, const Real* source, Real* rotated) {
+    const Real x = -source[3], y = -source[1], z = source[2];
+    rotated[1] = -(r[1][0] * x + r[1][1] * y + r[1][2] * z);
+    rotated[2] = r[2][0] * x + r[2][1] * y + r[2][2] * z;
+    rotated[3] = -(r[0][0] * x + r[0][1] * y + r[0][2] * z);
+}
+
+/// Degree 2 is a symmetric matrix A without trace, f(ω) ~ ωᵀA ω, which becomes R A Rᵀ: its
+/// functions are xy, −yz, (3z² − 1)/(2√3), −xz and (x² − y²)/2 but for a factor (C2).
+template <class Real>
+void rotateDegree2(const Imath::Matrix33<Real>& r, const Real* source, Real* rotated) {
+    constexpr Real kRoot3 = std::numbers::sqrt3_v<Real>;
+    const Real xy = source[4], yz = -source[5], xz = -source[7];
+    const Real third = kRoot3 / 3 * source[6];
+    const Real xx = source[8] - third, yy = -source[8] - third, zz = 2 * third;
+    using Row = Imath::Vec3<Real>;
+    const auto multiplyRow = [&](int i) {
+        return Row(r[i][0] * xx + r[i][1] * xy + r[i][2] * xz,
+                   r[i][0] * xy + r[i][1] * yy + r[i][2] * yz,
+                   r[i][0] * xz + r[i][1] * yz + r[i][2] * zz);
+    };
+    const auto entry = [&](const Row& row, int j) {
+        return row.x * r[j][0] + row.y * r[j][1] + row.z * r[j][2];
+    };
+    const Row x = multiplyRow(0), y = multiplyRow(1), z = multiplyRow(2);  // of R A
+    rotated[4] = entry(x, 1);
+    rotated[5] = -entry(y, 2);
+    rotated[6] = kRoot3 / 2 * entry(z, 2);
+    rotated[7] = -entry(x, 2);
+    rotated[8] = Real(0.5) * (entry(x, 0) - entry(y, 1));
+}
+
+/// Up to three bands, which are rotated sooner than turns are found.
+template <class Real>
+void rotateFewBands(const Mat3d& rotation, int bandCount, std::span<const Real> source,
+                    std::span<Real> rotated) {
+    const Imath::Matrix33<Real> matrix(rotation);
+    const auto channelSize = static_cast<std::size_t>(shCoefficientCount(bandCount));
+    for (std::size_t i = 0; i < source.size(); i += channelSize) {
+        rotated[i] = source[i];
+        if (bandCount > 1) rotateDegree1(matrix, &source[i], &rotated[i]);
+        if (bandCount > 2) rotateDegree2(matrix, &source[i], &rotated[i]);
+    }
 }
 
 template <class Real>
@@ -439,7 +490,9 @@ void rotateByMatrix(const Mat3d& rotation, int bandCount, std::span<const Real> 
 void rotateSh(const Mat3d& rotation, int bandCount, std::span<const float> source,
               std::span<float> rotated) {
     const std::size_t channelCount = countChannels(bandCount, source.size(), rotated.size());
-    if (bandCount <= kMaxBandCount) {
+    if (bandCount <= 3) {
+        rotateFewBands(rotation, bandCount, source, rotated);
+    } else if (bandCount <= kMaxBandCount) {
         HWY_DYNAMIC_DISPATCH(rotateFloats)
         (rotation, bandCount, channelCount, source.data(), rotated.data());
     } else {
@@ -450,7 +503,9 @@ void rotateSh(const Mat3d& rotation, int bandCount, std::span<const float> sourc
 void rotateSh(const Mat3d& rotation, int bandCount, std::span<const double> source,
               std::span<double> rotated) {
     const std::size_t channelCount = countChannels(bandCount, source.size(), rotated.size());
-    if (bandCount <= kMaxBandCount) {
+    if (bandCount <= 3) {
+        rotateFewBands(rotation, bandCount, source, rotated);
+    } else if (bandCount <= kMaxBandCount) {
         HWY_DYNAMIC_DISPATCH(rotateDoubles)
         (rotation, bandCount, channelCount, source.data(), rotated.data());
     } else {
