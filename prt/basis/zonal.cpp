@@ -2,6 +2,7 @@
 //   [Amos74]         Computation of modified Bessel functions and their ratios
 //   [Fisher53]       Dispersion on a sphere: the Gaussian lobe
 //   [Ramamoorthi01]  An efficient representation for irradiance environment maps
+//   [Sloan05]        Local, deformable precomputed radiance transfer
 //   [Sloan08]        Stupid spherical harmonics tricks
 #include "prt/basis/zonal.h"
 
@@ -144,6 +145,12 @@ void rotateZonal(std::span<const double> zonal, const Vec3d& axis, std::span<dou
     evaluateSh(axis, static_cast<int>(zonal.size()), coefficients);
     scaleBands(coefficients,
                [&](int l) { return zonal[static_cast<std::size_t>(l)] / zonalPeak(l); });
+}
+
+Vec3d optimalLinearDirection(std::span<const double, 3> firstDegree) {
+    const Vec3d direction(-firstDegree[2], -firstDegree[0], firstDegree[1]);
+    const double length = direction.length();
+    return length > 0.0 ? direction / length : Vec3d(0.0, 0.0, 1.0);
 }
 
 void unshadowedTransfer(const Vec3f& normal, int bandCount, std::span<float> transfer) {

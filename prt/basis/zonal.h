@@ -58,6 +58,13 @@ void convolveZonal(std::span<const double> kernel, std::span<const double> coeff
 /// @param coefficients  n² numbers, written
 void rotateZonal(std::span<const double> zonal, const Vec3d& axis, std::span<double> coefficients);
 
+/// The direction in which the first degree of a function is largest, the best axis that its first
+/// two bands have [Sloan05]; +z where that degree is 0.
+///
+/// @param firstDegree  coefficients 1, 2 and 3
+/// @return             unit
+Vec3d optimalLinearDirection(std::span<const double, 3> firstDegree);
+
 /// The transfer vector of an unshadowed diffuse receiver: (1/π) max(⟨n, ω⟩, 0) projected (C6).
 ///
 /// @param normal    unit
