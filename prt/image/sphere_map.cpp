@@ -347,6 +347,20 @@ SphereTexel sphereTexel(SphereMap map, int width, int height, int x, int y) {
     }
 }
 
+std::vector<double> normalisedSolidAngles(SphereMap map, int width, int height) {
+    std::vector<double> solidAngles;
+    solidAngles.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    double sum = 0.0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            solidAngles.push_back(sphereTexel(map, width, height, x, y).solidAngle);
+            sum += solidAngles.back();
+        }
+    for (double& solidAngle : solidAngles)
+        solidAngle *= 4.0 * kPi / sum;
+    return solidAngles;
+}
+
 SpherePlace spherePlace(SphereMap map, int width, int height, double x, double y) {
     checkShape(map, width, height);
     switch (map) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "prt/math/vector.h"
 
@@ -45,6 +46,10 @@ struct SphereTexel {
 /// Texels show nothing in the empty cells of crosses, and where their centre lies outside the disc
 /// of an angular map.
 SphereTexel sphereTexel(SphereMap map, int width, int height, int x, int y);
+
+/// The solid angles of all texels, row by row, scaled to sum to exactly 4π: what the texels of an
+/// angular map lack is little.
+std::vector<double> normalisedSolidAngles(SphereMap map, int width, int height);
 
 /// A place of a sphere map, between texel centres too.
 struct SpherePlace {

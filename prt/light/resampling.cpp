@@ -33,20 +33,8 @@ Layout layoutOf(const Environment& environment) {
     return {environment.map, environment.radiance.width, environment.radiance.height};
 }
 
-/// The solid angle of each texel, normalised to sum to 4π as projectLighting does.
 std::vector<double> measureTexels(const Layout& layout) {
-    std::vector<double> solidAngles;
-    solidAngles.reserve(layout.texelCount());
-    double sum = 0.0;
-    for (int y = 0; y < layout.height; ++y)
-        for (int x = 0; x < layout.width; ++x) {
-            solidAngles.push_back(
-                sphereTexel(layout.map, layout.width, layout.height, x, y).solidAngle);
-            sum += solidAngles.back();
-        }
-    for (double& solidAngle : solidAngles)
-        solidAngle *= kSphere / sum;
-    return solidAngles;
+    return normalisedSolidAngles(layout.map, layout.width, layout.height);
 }
 
 class Resampler {
