@@ -11,11 +11,12 @@
 #include "apps/prt/arguments.h"
 #include "apps/prt/coefficient_format.h"
 #include "apps/prt/commands.h"
+#include "apps/prt/environment_output.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/light_argument.h"
 #include "apps/prt/light_report.h"
+#include "apps/prt/light_sum.h"
 #include "apps/prt/light_window.h"
-#include "apps/prt/limits.h"
 #include "apps/prt/picture.h"
 #include "apps/prt/staged_folder.h"
 #include "prt/base/error.h"
@@ -27,15 +28,14 @@ struct LightArguments {
     std::vector<std::string> lights;
     std::string command;  // that would do this again
     int bandCount = 5;
-    std::optional<SphereMap> map;
+    LightSumOptions sum;
     Vec3d rotationDegrees{0.0, 0.0, 0.0};
-    Vec3d factor{1.0, 1.0, 1.0};
     WindowArguments window;
     ShConvention convention = ShConvention::cs;
     CoefficientFormat format = CoefficientFormat::table;
     std::string reconstruction;
+    EnvironmentOutput environment;
     std::string report;
-    ReaderLimits limits;
 };
 
 std::optional<Vec3d> parseFactor(std::string_view text) {
@@ -59,34 +59,6 @@ std::string describeConventions() {
     return text;
 }
 
-/// All the lights that were named, each turned and scaled, as one.
-struct LightSum {
-    Lighting lighting;
-    Image picture;           ///< of the lights themselves, where it is wanted
-    int knownBandCount = 0;  ///< bands that at least one of them has
-};
-
-LightSum loadLights(const LightArguments& arguments, int bandCount, int pictureWidth) {
-    const Mat3d rotation = rotationFromDegrees(arguments.rotationDegrees);
-    LightSum sum{Lighting(bandCount), Image(pictureWidth, pictureWidth / 2), 0};
-    for (const std::string& name : arguments.lights) {
-        const LightSource light =
-            loadLight(name, bandCount, arguments.map, arguments.limits.images());
-        if (const auto mending = describeMending(light.mended))
-            fmt::print(stderr, "prt: warning: {}: {}\n", name, *mending);
-        const Lighting turned = scale(rotate(light.lighting, rotation), arguments.factor);
-        // Coefficients from a file may have fewer bands; those that they lack are 0.
-        sum.knownBandCount = std::max(sum.knownBandCount, turned.bandCount);
-        for (std::size_t i = 0; i < turned.coefficients.size(); ++i)
-            sum.lighting.coefficients[i] += turned.coefficients[i];
-        if (pictureWidth == 0) continue;
-        const Image picture = drawLight(light, rotation, pictureWidth);
-        for (std::size_t i = 0; i < picture.pixels.size(); ++i)
-            sum.picture.pixels[i] += picture.pixels[i] * Vec3f(arguments.factor);
-    }
-    return sum;
-}
-
 void writeReconstruction(const Lighting& lighting, const std::string& path) {
     constexpr int kWidth = 1024;
     const Image image = reconstructLatLong(lighting, kWidth);
@@ -94,16 +66,19 @@ void writeReconstruction(const Lighting& lighting, const std::string& path) {
     writePicture(path, image);
 }
 
-void writeReportFolder(const LightArguments& arguments, LightSum sum, const Lighting& printed) {
+void writeReportFolder(const LightArguments& arguments, const LightSum& sum,
+                       const Lighting& printed) {
+    constexpr int kPictureHeight = 512;
     std::vector<std::string> names;
     for (const std::string& light : arguments.lights)
         names.push_back(std::filesystem::path(light).filename().string());
-    const LightReport report{.name = fmt::format("{}", fmt::join(names, " + ")),
-                             .command = arguments.command,
-                             .window = arguments.window.window,
-                             .picture = std::move(sum.picture),
-                             .lighting = std::move(sum.lighting),
-                             .printed = printed};
+    const LightReport report{
+        .name = fmt::format("{}", fmt::join(names, " + ")),
+        .command = arguments.command,
+        .window = describeWindow(arguments.window),
+        .picture = drawLights(sum, SphereMap::latLong, kPictureHeight).radiance,
+        .lighting = sum.lighting,
+        .printed = printed};
     const DeferInterrupts whileWriting;
     StagedFolder folder(arguments.report);
     writeLightReport(folder.path(), report);
@@ -111,31 +86,63 @@ void writeReportFolder(const LightArguments& arguments, LightSum sum, const Ligh
     folder.commit();
 }
 
-void runLight(const LightArguments& arguments) {
+/// Finds out before the work what would make it fail at its end.
+void checkArguments(const LightArguments& arguments) {
     if (!arguments.reconstruction.empty())
         requireSuffix(arguments.reconstruction, kPictureSuffixes);
+    checkEnvironmentOutput(arguments.environment);
     if (arguments.bandCount > maxBandCount(arguments.convention))
         throw Error(ErrorCode::invalidOption,
                     fmt::format("holds at most {} bands", maxBandCount(arguments.convention)),
                     fmt::format("--convention {}", shConventionName(arguments.convention)),
                     fmt::format("add --bands {}", maxBandCount(arguments.convention)));
-    const bool reports = !arguments.report.empty();
-    if (reports) {
+    if (!arguments.report.empty()) {
         const DeferInterrupts whileProbing;
         StagedFolder::check(arguments.report);
     }
     stopIfInterrupted();
+}
 
-    constexpr int kReportPictureWidth = 1024;
-    LightSum sum = loadLights(arguments, reports ? kReportBandCount : arguments.bandCount,
-                              reports ? kReportPictureWidth : 0);
+void runLight(LightArguments arguments) {
+    checkArguments(arguments);
+    arguments.sum.rotation = rotationFromDegrees(arguments.rotationDegrees);
+    const bool reports = !arguments.report.empty();
+    const LightSum sum = sumLights(arguments.lights, arguments.sum,
+                                   reports ? kReportBandCount : arguments.bandCount);
+    for (const DiscLight& sun : sum.suns)
+        fmt::print(stderr, "prt: took out {}\n", describeSun(sun));
+    if (arguments.sum.withoutSuns && sum.suns.empty())
+        fmt::print(stderr, "prt: there was no sun to take out\n");
+
     const int bandCount = std::min(arguments.bandCount, sum.knownBandCount);
     const Lighting lighting = lowerRinging(truncate(sum.lighting, bandCount), arguments.window);
-
     if (!arguments.reconstruction.empty()) writeReconstruction(lighting, arguments.reconstruction);
-    if (reports) writeReportFolder(arguments, std::move(sum), lighting);
+    writeEnvironmentOutput(sum, arguments.environment);
+    if (reports) writeReportFolder(arguments, sum, lighting);
     fmt::print("{}", formatCoefficients(lighting, arguments.format, arguments.convention));
 }
+
+void addInputOptions(CLI::App& command, LightArguments& arguments) {
+    command.add_option("LIGHT", arguments.lights, "the light, as below; the sum of several")
+        ->required();
+    addParsedOption(command, "--map", arguments.sum.map, parseSphereMap, sphereMapNames(),
+                    "an image's layout [told by its shape]");
+    addPixelLimit(command, arguments.sum.limits);
+    addParsedOption(command, "--rotate", arguments.rotationDegrees, parseTriple, "X,Y,Z",
+                    "turn about the world's x axis, then y, then z, degrees")
+        ->default_str("0,0,0");
+    addParsedOption(command, "--scale", arguments.sum.factor, parseFactor, "S|R,G,B",
+                    "multiply every light by a factor, or one a channel")
+        ->default_str("1");
+    command.add_flag("--split-sun", arguments.sum.withoutSuns,
+                     "take the sun out of images first, and say where it was and what it gave");
+}
+
+constexpr const char* kExamples =
+    R"(Examples: prt light museum.exr --bands 3 --window auto --format glsl
+          prt light museum.exr sun:120,40,1 --scale 0.5 --report museum-light
+          prt light museum.exr --environment cube.exr --layout vertical-strip --size 256
+)";
 
 }  // namespace
 
@@ -143,24 +150,10 @@ void addLightCommand(CLI::App& app) {
     const auto arguments = std::make_shared<LightArguments>();
     CLI::App* command = app.add_subcommand(
         "light", "Project a light onto spherical harmonics and print the coefficients");
-    command->footer(
-        std::string(
-            "Examples: prt light museum.exr --bands 3 --window auto --format glsl\n"
-            "          prt light museum.exr sun:120,40,1 --scale 0.5 --report museum-light\n") +
-        kLightHelp + describeConventions());
-    command->add_option("LIGHT", arguments->lights, "the light, as below; the sum of several")
-        ->required();
+    command->footer(kExamples + std::string(kLightHelp) + describeConventions());
+    addInputOptions(*command, *arguments);
     addIntegerOption(*command, "--bands", arguments->bandCount, 1, kMaxBandCount,
                      "n bands, n*n coefficients; 1 to 10; at most those of a JSON");
-    addParsedOption(*command, "--map", arguments->map, parseSphereMap, sphereMapNames(),
-                    "the image's layout [told by its shape]");
-    addPixelLimit(*command, arguments->limits);
-    addParsedOption(*command, "--rotate", arguments->rotationDegrees, parseTriple, "X,Y,Z",
-                    "turn about the world's x axis, then y, then z, degrees")
-        ->default_str("0,0,0");
-    addParsedOption(*command, "--scale", arguments->factor, parseFactor, "S|R,G,B",
-                    "multiply every light by a factor, or one a channel")
-        ->default_str("1");
     addWindowOptions(*command, arguments->window);
     addParsedOption(*command, "--convention", arguments->convention, parseShConvention,
                     conventionNames(), "for whom to print, as below")
@@ -172,11 +165,11 @@ void addLightCommand(CLI::App& app) {
         ->add_option("--reconstruct", arguments->reconstruction,
                      "also draw what they stand for as a lat-long picture")
         ->type_name("OUT.exr|png");
+    addEnvironmentOptions(*command, arguments->environment);
     command
-        ->add_option(
-            "--report", arguments->report,
-            "also make a folder with a page about the light: in 1 to 32 bands, its energy, "
-            "ringing, what it lights")
+        ->add_option("--report", arguments->report,
+                     "also make a folder with a page about the light: in 1 to 32 bands, its "
+                     "energy, ringing, what it lights")
         ->type_name("DIR");
     command->callback([arguments, command] {
         arguments->command = describeCommand(

@@ -164,21 +164,29 @@ Environment makeBackground(const LightSource& light, const Mat3d& rotation) {
     return rotate(*light.environment, rotation, SphereMap::latLong, 2 * height, height);
 }
 
-Image drawLight(const LightSource& light, const Mat3d& rotation, int width) {
-    const int height = width / 2;
-    if (light.environment)
-        return rotate(*light.environment, rotation, SphereMap::latLong, width, height).radiance;
-    if (!light.sun) return reconstructLatLong(rotate(light.lighting, rotation), width);
+Environment drawLight(const LightSource& light, const Mat3d& rotation, SphereMap map,
+                      int cellSize) {
+    const auto [width, height] = sphereMapSize(map, cellSize);
+    if (light.environment) return rotate(*light.environment, rotation, map, width, height);
 
-    Environment sky{SphereMap::latLong, Image(width, height)};
-    const auto [direction, halfAngle] = *light.sun;
-    // Of unit irradiance: ∫ L dω = 2π (1 − cos α) / (π sin² α), which is 1 for a light of no
-    // extent.
-    const double sine = std::sin(std::min(halfAngle, 0.5 * std::numbers::pi));
-    const double flux =
-        halfAngle > 0.0 ? 4.0 * std::pow(std::sin(0.5 * halfAngle) / sine, 2.0) : 1.0;
-    addDisc(sky, rotation * direction, halfAngle, Vec3d(flux));
-    return sky.radiance;
+    Environment drawn{map, Image(width, height)};
+    if (light.sun) {
+        const auto [direction, halfAngle] = *light.sun;
+        // Of unit irradiance: ∫ L dω = 2π (1 − cos α) / (π sin² α), and 1 for a light of no extent.
+        const double sine = std::sin(std::min(halfAngle, 0.5 * std::numbers::pi));
+        const double flux =
+            halfAngle > 0.0 ? 4.0 * std::pow(std::sin(0.5 * halfAngle) / sine, 2.0) : 1.0;
+        addDisc(drawn, rotation * direction, halfAngle, Vec3d(flux));
+        return drawn;
+    }
+    const Lighting turned = rotate(light.lighting, rotation);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const SphereTexel texel = sphereTexel(map, width, height, x, y);
+            if (texel.solidAngle > 0.0)
+                drawn.radiance.at(x, y) = Vec3f(reconstruct(turned, texel.direction));
+        }
+    return drawn;
 }
 
 }  // namespace prt::cli

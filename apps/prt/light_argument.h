@@ -63,7 +63,9 @@ std::unique_ptr<DistantLight> makeExactLight(const LightSource& light, const Mat
 /// what the coefficients stand for.
 Environment makeBackground(const LightSource& light, const Mat3d& rotation);
 
-/// The light itself as a lat-long image; coefficients stand for themselves. @param width  even
-Image drawLight(const LightSource& light, const Mat3d& rotation, int width);
+/// The light itself as an image; coefficients stand for themselves.
+///
+/// @param cellSize  as sphereMapSize takes it
+Environment drawLight(const LightSource& light, const Mat3d& rotation, SphereMap map, int cellSize);
 
 }  // namespace prt::cli

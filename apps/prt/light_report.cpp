@@ -142,40 +142,41 @@ float chooseExposure(const Lighting& lighting) {
     return brightest > 0.0 ? static_cast<float>(std::log2(kBrightest / brightest)) : 0.0f;
 }
 
-/// A unit sphere before the camera, which looks along −z; `shade` gives the radiance at a normal.
-Image drawSphere(const std::function<Vec3d(const Vec3d& normal)>& shade) {
+/// A unit sphere before the camera, which looks along −z.
+///
+/// @param latLong    what is seen of the sphere, by the direction that `lookUp` makes of a normal
+Image drawSphere(const Image& latLong, const std::function<Vec3d(const Vec3d& normal)>& lookUp) {
     constexpr int kSplit = 3;
     constexpr double kRadius = 0.96;  // of the picture's half side
+    const Environment environment{SphereMap::latLong, latLong};
     Image image(kSphereSize, kSphereSize);
     for (int y = 0; y < kSphereSize; ++y)
         for (int x = 0; x < kSphereSize; ++x) {
-            Vec3d sum(0.0);
+            Vec3f sum(0.0f);
             for (int k = 0; k < kSplit * kSplit; ++k) {
                 const double u = 2.0 * (x + (k % kSplit + 0.5) / kSplit) / kSphereSize - 1.0;
                 const double v = 1.0 - 2.0 * (y + (k / kSplit + 0.5) / kSplit) / kSphereSize;
                 const double height2 = 1.0 - (u * u + v * v) / (kRadius * kRadius);
-                if (height2 > 0.0)
-                    sum += shade(Vec3d(u / kRadius, v / kRadius, std::sqrt(height2)));
+                if (height2 <= 0.0) continue;
+                const Vec3d normal(u / kRadius, v / kRadius, std::sqrt(height2));
+                sum += lookUpRadiance(environment, Vec3f(lookUp(normal)));
             }
-            image.at(x, y) = Vec3f(sum / (kSplit * kSplit));
+            image.at(x, y) = sum / (kSplit * kSplit);
         }
     return image;
 }
 
 /// A white diffuse sphere lit by the coefficients, unshadowed.
 Image drawLitSphere(const Lighting& lighting) {
-    const Lighting irradiance = convolveWithCosine(lighting);
-    return drawSphere([&](const Vec3d& normal) {
-        return reconstruct(irradiance, normal) * std::numbers::inv_pi;
-    });
+    const Lighting reflected = scale(convolveWithCosine(lighting), std::numbers::inv_pi);
+    return drawSphere(reconstructLatLong(reflected, kPictureWidth),
+                      [](const Vec3d& normal) { return normal; });
 }
 
 Image drawMirrorSphere(const Image& latLong) {
-    const Environment environment{SphereMap::latLong, latLong};
-    return drawSphere([&](const Vec3d& normal) {
+    return drawSphere(latLong, [](const Vec3d& normal) {
         const Vec3d toCamera(0.0, 0.0, 1.0);
-        const Vec3d reflected = normal * (2.0 * normal.dot(toCamera)) - toCamera;
-        return Vec3d(lookUpRadiance(environment, Vec3f(reflected)));
+        return normal * (2.0 * normal.dot(toCamera)) - toCamera;
     });
 }
 

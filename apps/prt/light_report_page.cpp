@@ -177,8 +177,7 @@ std::string formatSpheres(const LightReport& report) {
         "<h2>What it lights</h2>\n<p class=\"soft\">A mirror and white diffuse spheres, seen along "
         "−z with +y up.</p>\n<div class=\"pictures\">\n" +
         formatFigure(kMirrorSphere, "<b>Mirror</b>: the light itself") +
-        formatFigure(kExactSphere,
-                     fmt::format("<b>Diffuse</b>, {}", formatBands(kMaxBandCount)));
+        formatFigure(kExactSphere, fmt::format("<b>Diffuse</b>, {}", formatBands(kMaxBandCount)));
     for (const int bandCount : {1, 2, 3})
         html += formatFigure(bandsSphere(bandCount),
                              fmt::format("<b>Diffuse, {}</b>", formatBands(bandCount)));

@@ -45,6 +45,11 @@ void addWindowOptions(CLI::App& command, WindowArguments& arguments) {
         ->capture_default_str();
 }
 
+std::string describeWindow(const WindowArguments& arguments) {
+    if (arguments.nonNegative == "radiance") return arguments.window;
+    return fmt::format("{} for {}", arguments.window, arguments.nonNegative);
+}
+
 Lighting lowerRinging(const Lighting& lighting, const WindowArguments& arguments) {
     if (arguments.window != "auto" && arguments.nonNegative != "radiance")
         throw Error(ErrorCode::invalidOption, "only means something with --window auto",

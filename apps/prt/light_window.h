@@ -17,6 +17,9 @@ struct WindowArguments {
 /// Adds --window and --nonnegative.
 void addWindowOptions(CLI::App& command, WindowArguments& arguments);
 
+/// The window and what it is for, in a few words.
+std::string describeWindow(const WindowArguments& arguments);
+
 /// @throws Error  as readAsset for the asset; invalidOption if it has fewer bands than the light
 Lighting lowerRinging(const Lighting& lighting, const WindowArguments& arguments);
 

@@ -325,6 +325,10 @@ bool fitsSphereMap(SphereMap map, int width, int height) {
     return fits(traitsOf(map), width, height);
 }
 
+SphereMapSize sphereMapSize(SphereMap map, int cellSize) {
+    return {traitsOf(map).columnCount * cellSize, traitsOf(map).rowCount * cellSize};
+}
+
 std::optional<SphereMap> recogniseSphereMap(int width, int height) {
     for (const SphereMapTraits& traits : kSphereMaps) {
         if (fits(traits, width, height)) return traits.map;

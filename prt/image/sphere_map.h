@@ -29,6 +29,15 @@ std::optional<SphereMap> parseSphereMap(std::string_view name);
 
 bool fitsSphereMap(SphereMap map, int width, int height);
 
+struct SphereMapSize {
+    int width = 0;
+    int height = 0;
+};
+
+/// The size of a map whose cells have so many texels on a side: the faces of a cube, the two halves
+/// of a lat-long map, the whole of the others.
+SphereMapSize sphereMapSize(SphereMap map, int cellSize);
+
 /// The map whose shape fits, or nothing. Square images are angular maps.
 std::optional<SphereMap> recogniseSphereMap(int width, int height);
 

@@ -37,6 +37,9 @@ double angleBetween(const Vec3d& a, const Vec3d& b) {
 TEST(SphereMap, NamesLeadBackAndShapesAreRecognised) {
     for (const auto& [map, columnCount, rowCount] : kShapes) {
         EXPECT_EQ(parseSphereMap(sphereMapName(map)), map);
+        const auto [width, height] = sphereMapSize(map, 7);
+        EXPECT_EQ(width, 7 * columnCount);
+        EXPECT_EQ(height, 7 * rowCount);
         const SphereMap recognised = map == SphereMap::octahedral ? SphereMap::angularMap : map;
         EXPECT_EQ(recogniseSphereMap(32 * columnCount, 32 * rowCount), recognised);
     }
