@@ -20,7 +20,8 @@ namespace prt {
 ///
 /// E exchanges two axes. Its matrix is constant and mostly zero, and turns about z only mix m and
 /// −m. Differs from the sources, which turn about y and exchange y and z: exchanging z and x
-/// keeps cosines apart from sines. Beyond kMaxBandCount bands this is ShRotation.
+/// keeps cosines apart from sines. Three bands are rotated sooner as a vector and a symmetric
+/// matrix, and more than kMaxBandCount by ShRotation.
 ///
 /// @param rotation   orthogonal
 /// @param bandCount  n ≥ 1

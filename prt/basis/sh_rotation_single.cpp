@@ -1,9 +1,5 @@
-// Bibliography
-//   [Dachsbacher17]  Precomputed radiance transfer
-//   [Pinchon07]      Rotation matrices for real spherical harmonics
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -11,193 +7,18 @@
 #include "prt/basis/sh_rotation.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "prt/basis/sh_rotation_kernel.cpp"
+#define HWY_TARGET_INCLUDE "prt/basis/sh_rotation_single.cpp"
 #include <hwy/foreach_target.h>
 
-#include "prt/basis/sh-inl.h"
+#include "prt/basis/sh_rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace prt::HWY_NAMESPACE {
 namespace {
 
-constexpr double binomial(int n, int k) {
-    double product = k >= 0 && k <= n ? 1.0 : 0.0;
-    for (int i = 0; i < k && i < n; ++i)
-        product = product * (n - i) / (i + 1);
-    return product;
-}
-
-/// Wigner's d^l_{mk}(π/2): how complex harmonics mix under a quarter turn about y.
-constexpr double quarterTurnEntry(int l, int m, int k) {
-    double sum = 0.0;
-    for (int s = 0; s <= l + k; ++s)
-        sum += (s % 2 == 0 ? 1.0 : -1.0) * binomial(l + k, s) * binomial(l - k, l - m - s);
-    const double root = constantSqrt(binomial(2 * l, l + k) / binomial(2 * l, l + m));
-    return ((m - k) % 2 == 0 ? 1.0 : -1.0) * root * sum / (1 << l);
-}
-
-/// Entry (m, k) of the block of degree l of E, which exchanges z and x: a quarter turn about y, and
-/// then z to −z. It is zero where m and k differ in sign, and in every second place elsewhere.
-constexpr double exchangeEntry(int l, int m, int k) {
-    const int row = m < 0 ? -m : m, column = k < 0 ? -k : k;
-    const double sign = ((l + row) % 2 == 0 ? 1.0 : -1.0);
-    const double entry = quarterTurnEntry(l, row, column);
-    if (row == 0 && column == 0) return sign * entry;
-    if (row == 0 || column == 0) return sign * std::numbers::sqrt2 * entry;
-    const double mirrored = (column % 2 == 0 ? 1.0 : -1.0) * quarterTurnEntry(l, row, -column);
-    return sign * (m < 0 ? entry - mirrored : entry + mirrored);
-}
-
-/// A turn about z: cosines and sines of the multiples of its angle, from 1.
-template <class V>
-struct Turn {
-    V cosine[kMaxBandCount];
-    V sine[kMaxBandCount];
-};
-
-/// R = ±Z(α) X(β) Z(γ).
-template <class V>
-struct Turns {
-    Turn<V> alpha, minusBeta, gamma;
-    V sign;
-};
-
-/// Computes the multiples of the angle from m ≥ 2 up to bandCount − 1.
-template <int m, class V>
-HWY_INLINE void computeMultiples(int bandCount, Turn<V>& turn) {
-    if constexpr (m < kMaxBandCount) {
-        if (m >= bandCount) return;
-        const V cosine = turn.cosine[m - 1], sine = turn.sine[m - 1];
-        turn.cosine[m] = hn::MulSub(turn.cosine[1], cosine, hn::Mul(turn.sine[1], sine));
-        turn.sine[m] = hn::MulAdd(turn.cosine[1], sine, hn::Mul(turn.sine[1], cosine));
-        computeMultiples<m + 1>(bandCount, turn);
-    }
-}
-
-template <class V>
-HWY_INLINE void computeMultiples(int bandCount, Turns<V>& turns) {
-    computeMultiples<2>(bandCount, turns.alpha);
-    computeMultiples<2>(bandCount, turns.minusBeta);
-    computeMultiples<2>(bandCount, turns.gamma);
-}
-
-/// Finds the three turns of an orthogonal matrix r, row-major.
-///
-/// γ turns into the plane of y and z what becomes z; where that lies in the pole, any γ will do. α
-/// is read off what is left when γ is undone, and so makes good what rounding did to γ near the
-/// pole.
-template <class D, class V>
-HWY_INLINE Turns<V> findTurns(D d, const V (&r)[9]) {
-    using Real = hn::TFromD<D>;
-    const V determinant =
-        hn::MulAdd(r[6], hn::MulSub(r[1], r[5], hn::Mul(r[2], r[4])),
-                   hn::MulAdd(r[7], hn::MulSub(r[2], r[3], hn::Mul(r[0], r[5])),
-                              hn::Mul(r[8], hn::MulSub(r[0], r[4], hn::Mul(r[1], r[3])))));
-    const V one = hn::Set(d, Real(1));
-    const V sign = hn::CopySign(one, determinant);
-
-    // A root and a quotient at once are faster than one after the other.
-    const V square = hn::MulAdd(r[6], r[6], hn::Mul(r[7], r[7]));
-    const auto isPole = hn::Lt(square, hn::Set(d, std::numeric_limits<Real>::min()));
-    const V sinBeta = hn::Sqrt(square);
-    const V scale = hn::Mul(sinBeta, hn::Div(one, square));
-    const V sinGamma = hn::IfThenZeroElse(isPole, hn::Mul(scale, hn::Mul(sign, r[6])));
-    const V cosGamma = hn::IfThenElse(isPole, one, hn::Mul(scale, hn::Mul(sign, r[7])));
-
-    Turns<V> turns;
-    turns.sign = sign;
-    turns.gamma.cosine[1] = cosGamma;
-    turns.gamma.sine[1] = sinGamma;
-    turns.minusBeta.cosine[1] = hn::Mul(sign, r[8]);
-    turns.minusBeta.sine[1] = hn::Neg(sinBeta);
-    turns.alpha.cosine[1] = hn::Mul(sign, hn::MulSub(cosGamma, r[0], hn::Mul(sinGamma, r[1])));
-    turns.alpha.sine[1] = hn::Mul(sign, hn::MulSub(cosGamma, r[3], hn::Mul(sinGamma, r[4])));
-    return turns;
-}
-
-/// Turns a band about z. `band` is its entry m = 0.
-template <int l, class V>
-HWY_INLINE void turnBand(const Turn<V>& turn, V* band) {
-    for (int m = 1; m <= l; ++m) {
-        const V plus = band[m], minus = band[-m];
-        band[m] = hn::MulSub(turn.cosine[m], plus, hn::Mul(turn.sine[m], minus));
-        band[-m] = hn::MulAdd(turn.sine[m], plus, hn::Mul(turn.cosine[m], minus));
-    }
-}
-
-/// Adds the products of row m of E with entries ±k, ±(k + 2), … of a band, of the sign of m.
-template <int l, int m, int k, class D, class V>
-HWY_INLINE V addExchanged(D d, const V* band, V sum) {
-    if constexpr (k > l) {
-        return sum;
-    } else {
-        constexpr int kColumn = m < 0 ? -k : k;
-        constexpr double kEntry = exchangeEntry(l, m, kColumn);
-        const V factor = hn::Set(d, static_cast<hn::TFromD<D>>(kEntry));
-        return addExchanged<l, m, k + 2>(d, band, hn::MulAdd(factor, band[kColumn], sum));
-    }
-}
-
-/// Rows m … l of E times a band.
-template <int l, int m, class D, class V>
-HWY_INLINE void exchangeAxes(D d, const V* band, V* exchanged) {
-    if constexpr (m <= l) {
-        constexpr int kFirst = m >= 0 ? (l + m) % 2 : 1 + (l - m) % 2;
-        constexpr int kColumn = m < 0 ? -kFirst : kFirst;
-        constexpr double kEntry = exchangeEntry(l, m, kColumn);
-        const V first = hn::Mul(hn::Set(d, static_cast<hn::TFromD<D>>(kEntry)), band[kColumn]);
-        exchanged[m] = addExchanged<l, m, kFirst + 2>(d, band, first);
-        exchangeAxes<l, m + 1>(d, band, exchanged);
-    }
-}
-
-/// Rotates the band of degree l ≥ 1; coefficients are kStride numbers apart.
-template <std::size_t kStride, int l, class D, class V>
-HWY_INLINE void rotateBand(D d, const Turns<V>& turns, const hn::TFromD<D>* source,
-                           hn::TFromD<D>* rotated) {
-    constexpr auto kFirst = static_cast<std::size_t>(l * l);
-    V band[2 * l + 1], exchanged[2 * l + 1];
-    for (std::size_t i = 0; i < 2 * l + 1; ++i) {
-        band[i] = hn::LoadU(d, source + (kFirst + i) * kStride);
-        if constexpr (l % 2 == 1) band[i] = hn::Mul(turns.sign, band[i]);
-    }
-    turnBand<l>(turns.gamma, band + l);
-    exchangeAxes<l, -l>(d, band + l, exchanged + l);
-    turnBand<l>(turns.minusBeta, exchanged + l);
-    exchangeAxes<l, -l>(d, exchanged + l, band + l);
-    turnBand<l>(turns.alpha, band + l);
-    for (std::size_t i = 0; i < 2 * l + 1; ++i)
-        hn::StoreU(band[i], d, rotated + (kFirst + i) * kStride);
-}
-
-/// Rotates the bands from degree l ≥ 1 up.
-template <std::size_t kStride, int l, class D, class V>
-HWY_INLINE void rotateBands(D d, const Turns<V>& turns, int bandCount, const hn::TFromD<D>* source,
-                            hn::TFromD<D>* rotated) {
-    if constexpr (l < kMaxBandCount) {
-        if (l >= bandCount) return;
-        rotateBand<kStride, l>(d, turns, source, rotated);
-        rotateBands<kStride, l + 1>(d, turns, bandCount, source, rotated);
-    }
-}
-
-void rotateBatch(int bandCount, const float* rotations, const float* source, float* rotated) {
-    const hn::CappedTag<float, kShBatchSize> d;
-    using V = hn::Vec<decltype(d)>;
-    for (std::size_t j = 0; j < kShBatchSize; j += hn::Lanes(d)) {
-        V matrix[9];
-        for (std::size_t entry = 0; entry < 9; ++entry)
-            matrix[entry] = hn::LoadU(d, rotations + kShBatchSize * entry + j);
-        Turns<V> turns = findTurns(d, matrix);
-        computeMultiples(bandCount, turns);
-        hn::StoreU(hn::LoadU(d, source + j), d, rotated + j);
-        rotateBands<kShBatchSize, 1>(d, turns, bandCount, source + j, rotated + j);
-    }
-}
-
-/// The broadcast entries of a matrix.
+/// findTurns of one matrix, the same in every lane.
 template <class D>
-HWY_INLINE Turns<hn::Vec<D>> findTurns(D d, const Mat3d& rotation) {
+HWY_INLINE Turns<hn::Vec<D>> broadcastTurns(D d, const Mat3d& rotation) {
     hn::Vec<D> matrix[9];
     for (int entry = 0; entry < 9; ++entry) {
         matrix[entry] = hn::Set(d, static_cast<hn::TFromD<D>>(rotation[entry / 3][entry % 3]));
@@ -210,7 +31,7 @@ template <class Real>
 HWY_INLINE void rotateChannels(const Mat3d& rotation, int bandCount, std::size_t channelCount,
                                const Real* source, Real* rotated) {
     const hn::CappedTag<Real, 1> d;
-    Turns<hn::Vec<decltype(d)>> turns = findTurns(d, rotation);
+    Turns<hn::Vec<decltype(d)>> turns = broadcastTurns(d, rotation);
     computeMultiples(bandCount, turns);
     const auto channelSize = static_cast<std::size_t>(shCoefficientCount(bandCount));
     for (std::size_t i = 0; i < channelCount * channelSize; i += channelSize) {
@@ -385,7 +206,7 @@ HWY_INLINE void rotateQuads(const QuadTurns& turns, int bandCount, const float* 
 
 void rotateFloats(const Mat3d& rotation, int bandCount, std::size_t channelCount,
                   const float* source, float* rotated) {
-    const auto found = findTurns(Quad(), rotation);
+    const auto found = broadcastTurns(Quad(), rotation);
     const auto makeTurn = [bandCount](const Turn<QuadVector>& turn) HWY_ATTR {
         return makeQuadTurn(bandCount, turn.cosine[1], turn.sine[1]);
     };
@@ -407,7 +228,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace prt {
 
-HWY_EXPORT(rotateBatch);
 HWY_EXPORT(rotateFloats);
 HWY_EXPORT(rotateDoubles);
 
@@ -511,22 +331,6 @@ void rotateSh(const Mat3d& rotation, int bandCount, std::span<const double> sour
     } else {
         rotateByMatrix(rotation, bandCount, source, rotated);
     }
-}
-
-void rotateShBatch(std::span<const float, 9 * kShBatchSize> rotations, int bandCount,
-                   std::span<const float> source, std::span<float> rotated) {
-    PRT_ASSERT(bandCount >= 1 && bandCount <= kMaxBandCount,
-               "straight-line code exists for this band count");
-    const auto count = static_cast<std::size_t>(shCoefficientCount(bandCount));
-    PRT_ASSERT(source.size() == count || source.size() == count * kShBatchSize,
-               "there is one coefficient a function, for all or for each");
-    PRT_ASSERT(rotated.size() == count * kShBatchSize, "there is room for each function");
-    if (source.size() == count) {
-        for (std::size_t i = 0; i < count; ++i)
-            std::fill_n(&rotated[kShBatchSize * i], kShBatchSize, source[i]);
-        source = rotated;
-    }
-    HWY_DYNAMIC_DISPATCH(rotateBatch)(bandCount, rotations.data(), source.data(), rotated.data());
 }
 
 }  // namespace prt
