@@ -91,6 +91,9 @@ std::vector<Mat3d> makeRotations() {
             const Mat3d nearPole = rotationZ(around) * rotationX(angle) * rotationZ(1.1);
             rotations.push_back(nearPole);
             rotations.push_back(rotationX(kPi) * nearPole);
+            // With the rounding of a matrix that has seen some use.
+            const Mat3d used = randomRotation(random);
+            rotations.push_back(used * used.transposed() * nearPole);
         }
     }
     for (int i = 0; i < 100; ++i) {
