@@ -9,7 +9,8 @@ namespace prt {
 
 struct ReceiverDeringingOptions {
     /// A receiver may be negative by so much of the light's mean radiance: the noise of the bake
-    /// and of quantisation, which no window of the light mends.
+    /// and of quantisation, which no window mends without taking the light along. 8-bit transfer
+    /// needs some 1e-2.
     double tolerance = 1e-3;
 };
 
