@@ -9,8 +9,7 @@ namespace prt::cli {
 void addEnvironmentOptions(CLI::App& command, EnvironmentOutput& output) {
     command
         .add_option("--environment", output.path,
-                    "also write the light itself as an image, turned and scaled: to convert, "
-                    "resize and rotate environments")
+                    "also write the light itself, turned and scaled, as an image")
         ->type_name("OUT.exr|png");
     addParsedOption(command, "--layout", output.layout, parseSphereMap, sphereMapNames(),
                     "of that image")

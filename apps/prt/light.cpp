@@ -168,8 +168,7 @@ void addLightCommand(CLI::App& app) {
     addEnvironmentOptions(*command, arguments->environment);
     command
         ->add_option("--report", arguments->report,
-                     "also make a folder with a page about the light: in 1 to 32 bands, its "
-                     "energy, ringing, what it lights")
+                     "also make a page about the light: bands, energy, ringing, what it lights")
         ->type_name("DIR");
     command->callback([arguments, command] {
         arguments->command = describeCommand(

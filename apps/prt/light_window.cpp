@@ -39,8 +39,7 @@ void addWindowOptions(CLI::App& command, WindowArguments& arguments) {
         ->capture_default_str();
     command
         .add_option("--nonnegative", arguments.nonNegative,
-                    "what --window auto keeps from being negative: the light, what it gives a "
-                    "surface of any normal, or what a baked asset reflects of it as it stands")
+                    "what auto keeps so: the light, a surface's light, what ASSET reflects")
         ->type_name("radiance|irradiance|ASSET")
         ->capture_default_str();
 }

@@ -48,12 +48,10 @@ constexpr std::array<ConventionTraits, 8> kTraits = {{
     {"three", "radiance, no phase, right-handed axes with +y up (three.js SphericalHarmonics3)",
      false, Mirror::none, Content::radiance, 0.0, 3},
     {"filament",
-     "irradiance / pi as a polynomial 1 y z x xy yz 3zz-1 xz xx-yy, right-handed axes with +y up "
-     "(Filament IndirectLight)",
+     "irradiance / pi as a polynomial 1 y z x xy yz 3zz-1 xz xx-yy, axes as cs (IndirectLight)",
      false, Mirror::none, Content::reflectedPolynomial, 0.0, 3},
     {"unity",
-     "irradiance / pi as a polynomial 1 y z x xy yz 3zz-1 xz xx-yy, left-handed axes with +z "
-     "ahead, x turned round (Unity SphericalHarmonicsL2)",
+     "the same polynomial, left-handed axes with +z ahead, x turned round (SphericalHarmonicsL2)",
      false, Mirror::x, Content::reflectedPolynomial, 0.0, 3},
     {"godot", "radiance / pi, no phase, right-handed axes with +y up (Godot LightmapGI probes)",
      false, Mirror::none, Content::radianceOverPi, 0.0, 3},

@@ -43,11 +43,11 @@ struct IrradianceError {
 
 /// Measures what 1, 2, … maxBandCount bands leave of irradiance.
 ///
-/// @param lighting  the truth: so many bands that those beyond do not count. Of a directional
-/// light,
-///                  the worst there is, they hold 0.2 % on average beyond 20 bands, 0.05 % beyond
-///                  40
-/// @return          all 0 where there is no light
+/// The light given is the truth, so it has to have many bands. A directional light, the worst there
+/// is, holds an average of 0.2 % of its peak beyond 20 bands, and 0.05 % beyond 40.
+///
+/// @param maxBandCount  at most lighting.bandCount
+/// @return              all 0 where there is no light
 std::vector<IrradianceError> measureIrradianceErrors(const Lighting& lighting,
                                                      int maxBandCount = 3);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -162,6 +163,132 @@ TEST_F(CliLight, ALayoutCanBeForced) {
     const CommandResult strip =
         runPrt(folder, {"light", "square.exr", "--map", "horizontal-strip"});
     EXPECT_EQ(strip.exitCode, 1) << strip.output;
+}
+
+TEST_F(CliLight, SeveralLightsAddUpAndScale) {
+    const Json sum = coefficients({"sun:10,20,30", "uniform:1,2,3", "--scale", "0.5,1,2"});
+    const Json sun = coefficients({"sun:10,20,30"});
+    const Json uniform = coefficients({"uniform:1,2,3"});
+    const double factors[] = {0.5, 1.0, 2.0};
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(sum[i][channel].get<double>(),
+                        factors[channel] *
+                            (sun[i][channel].get<double>() + uniform[i][channel].get<double>()),
+                        kDoubleRounding);
+    expectNear(coefficients({"sun:10,20,30", "--scale", "2"}),
+               coefficients({"sun:10,20,30", "sun:10,20,30"}), kDoubleRounding);
+}
+
+TEST_F(CliLight, CoefficientsFromAFileKeepTheirBands) {
+    writeText(folder.path() / "two.json",
+              print({"sun:30,45,20", "--format", "json", "--bands", "2"}));
+    EXPECT_EQ(coefficients({"two.json", "--bands", "5"}).size(), 4u);
+    EXPECT_EQ(coefficients({"two.json", "uniform:1", "--bands", "5"}).size(), 25u);
+}
+
+TEST_F(CliLight, DaylightIsSkyAndSun) {
+    const Json sky = coefficients({"sky:30,40,3", "--bands", "3"});
+    const Json daylight = coefficients({"daylight:30,40", "--bands", "3"});
+    // The sun gives some 100 klx, so it adds some 30 to the first coefficient.
+    EXPECT_GT(daylight[0][1].get<double>(), sky[0][1].get<double>() + 15.0);
+    EXPECT_GT(sky[0][2].get<double>(), sky[0][0].get<double>()) << "the sky is blue";
+}
+
+TEST_F(CliLight, AnEnvironmentIsTheSameLightInEveryLayout) {
+    const Json truth =
+        coefficients({"sky:30,40", "--rotate", "0,70,0", "--scale", "2", "--bands", "3"});
+    for (const std::string layout : {"lat-long", "angular-map", "vertical-cross",
+                                     "horizontal-cross", "vertical-strip", "octahedral"}) {
+        print({"sky:30,40", "--rotate", "0,70,0", "--scale", "2", "--environment", "sky.exr",
+               "--layout", layout, "--size", "96"});
+        const Json back = coefficients({"sky.exr", "--map", layout, "--bands", "3"});
+        expectNear(back, truth, 0.01 * truth[0][2].get<double>());
+    }
+    const Image cross = readImage(folder.path() / "sky.exr");
+    EXPECT_EQ(cross.width, 96);
+}
+
+TEST_F(CliLight, ASunThatWasTakenOutCanBeAddedAgain) {
+    const CommandResult rest =
+        runPrt(folder, {"light", "daylight:30,40", "--split-sun", "--format", "json"});
+    ASSERT_EQ(rest.exitCode, 0) << rest.errors;
+    writeText(folder.path() / "rest.json", rest.output);
+    // "prt: took out sun:azimuth,elevation,angle --scale r,g,b"
+    const std::size_t start = rest.errors.find("sun:"), space = rest.errors.find(' ', start);
+    ASSERT_NE(start, std::string::npos) << rest.errors;
+    const std::string sun = rest.errors.substr(start, space - start);
+    std::string factor = rest.errors.substr(rest.errors.find("--scale ") + 8);
+    factor.pop_back();
+    EXPECT_TRUE(sun.starts_with("sun:30.0") || sun.starts_with("sun:29.9")) << sun;
+    writeText(folder.path() / "sun.json", print({sun, "--scale", factor, "--format", "json"}));
+    const Json truth = coefficients({"daylight:30,40"});
+    expectNear(coefficients({"rest.json", "sun.json"}), truth, 0.01 * truth[0][0].get<double>());
+
+    const CommandResult none = runPrt(folder, {"light", "uniform:1", "--split-sun"});
+    EXPECT_NE(none.errors.find("no sun"), std::string::npos) << none.errors;
+}
+
+TEST_F(CliLight, IrradianceNeedsLessSmoothingThanRadianceAndAnAssetMayNeedNone) {
+    runPrt(folder, {"scene", "bowl", "-o", "bowl.glb"});
+    const CommandResult bake = runPrt(
+        folder, {"bake", "bowl.glb", "-o", "bowl.prt.glb", "--bands", "4", "--samples", "64"});
+    ASSERT_EQ(bake.exitCode, 0) << bake.errors;
+    const auto lastCoefficient = [&](std::vector<std::string> window) {
+        std::vector<std::string> words = {"sun:20,50,0", "--bands", "4"};
+        words.insert(words.end(), window.begin(), window.end());
+        return std::abs(coefficients(words)[9][0].get<double>());
+    };
+    const double plain = lastCoefficient({});
+    const double irradiance = lastCoefficient({"--window", "auto", "--nonnegative", "irradiance"});
+    const double radiance = lastCoefficient({"--window", "auto"});
+    const double asset = lastCoefficient({"--window", "auto", "--nonnegative", "bowl.prt.glb"});
+    EXPECT_LT(radiance, irradiance);
+    EXPECT_LT(irradiance, plain);
+    EXPECT_GT(asset, radiance);
+
+    const CommandResult tooMany = runPrt(
+        folder, {"light", "sun:20,50,0", "--window", "auto", "--nonnegative", "bowl.prt.glb"});
+    EXPECT_EQ(tooMany.exitCode, 2);
+    EXPECT_NE(tooMany.errors.find("--bands 4"), std::string::npos) << tooMany.errors;
+    EXPECT_EQ(runPrt(folder, {"light", "uniform:1", "--nonnegative", "irradiance"}).exitCode, 2);
+}
+
+TEST_F(CliLight, AConventionRefusesMoreBandsThanItHas) {
+    const CommandResult result = runPrt(folder, {"light", "uniform:1", "--convention", "unity"});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_NE(result.errors.find("at most 3 bands"), std::string::npos) << result.errors;
+}
+
+TEST_F(CliLight, AReportShowsTheLightItsBandsAndItsNumbers) {
+    const std::string table =
+        print({"sky:30,40", "--bands", "3", "--window", "hann", "--report", "page"});
+    const std::string page = readText(folder.path() / "page" / "index.html");
+    // Every picture that the page shows is there.
+    std::size_t pictureCount = 0;
+    for (std::size_t at = page.find("src=\""); at != std::string::npos;
+         at = page.find("src=\"", at + 1), ++pictureCount) {
+        const std::string name = page.substr(at + 5, page.find('"', at + 5) - at - 5);
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / "page" / name)) << name;
+    }
+    EXPECT_GE(pictureCount, 16u);
+    EXPECT_NE(page.find("sky:30,40 as a light"), std::string::npos);
+    EXPECT_NE(page.find("9.4 %"), std::string::npos) << "of the worst light, edge-on";
+    for (const std::string name : {"unity", "godot", "3dgs", "filament"})
+        EXPECT_NE(page.find("<b>" + name + "</b>"), std::string::npos);
+    // lighting.json is what was printed.
+    expectNear(coefficients({"page/lighting.json", "--bands", "3"}),
+               coefficients({"sky:30,40", "--bands", "3", "--window", "hann"}), kDoubleRounding);
+    EXPECT_EQ(table, print({"sky:30,40", "--bands", "3", "--window", "hann"}));
+
+    const CommandResult again = runPrt(folder, {"light", "sky:30,40", "--report", "page"});
+    EXPECT_EQ(again.exitCode, 2) << "a folder that is there is not overwritten";
+}
+
+TEST_F(CliLight, AReportOfDarknessIsAPageToo) {
+    print({"uniform:0", "--report", "dark"});
+    EXPECT_NE(readText(folder.path() / "dark" / "index.html").find("uniform:0 as a light"),
+              std::string::npos);
 }
 
 }  // namespace
