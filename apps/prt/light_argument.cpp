@@ -180,6 +180,7 @@ Environment drawLight(const LightSource& light, const Mat3d& rotation, SphereMap
         return drawn;
     }
     const Lighting turned = rotate(light.lighting, rotation);
+    if (map == SphereMap::latLong) return {map, reconstructLatLong(turned, width)};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const SphereTexel texel = sphereTexel(map, width, height, x, y);
