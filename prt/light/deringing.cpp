@@ -40,17 +40,17 @@ DirectionGrid makeGrid(int bandCount) {
 }
 
 /// What each band of one function adds in one direction.
-std::vector<double> evaluateBands(std::span<const double> coefficients, int bandCount,
-                                  const Vec3d& direction) {
-    std::vector<double> values(coefficients.size());
-    evaluateSh(direction, bandCount, values);
-    std::vector<double> bands(static_cast<std::size_t>(bandCount), 0.0);
+///
+/// @param basis  n² basis functions, there
+/// @param bands  n numbers, written
+void sumBands(std::span<const double> coefficients, std::span<const double> basis,
+              std::span<double> bands) {
     std::size_t i = 0;
     for (std::size_t l = 0; l < bands.size(); ++l) {
+        bands[l] = 0.0;
         for (; i < (l + 1) * (l + 1); ++i)
-            bands[l] += coefficients[i] * values[i];
+            bands[l] += coefficients[i] * basis[i];
     }
-    return bands;
 }
 
 /// One channel of the lighting, and each of its bands over the grid.
@@ -60,19 +60,31 @@ struct Channel {
     double tolerance = 0.0;                        ///< what counts as rounding
 };
 
-Channel sampleChannel(const Lighting& lighting, int channelIndex, const DirectionGrid& grid) {
-    Channel channel;
-    for (const Vec3d& coefficient : lighting.coefficients)
-        channel.coefficients.push_back(coefficient[channelIndex]);
-    channel.bandsOnGrid.resize(static_cast<std::size_t>(lighting.bandCount));
-    for (const Vec3d& direction : grid.directions) {
-        const auto bands = evaluateBands(channel.coefficients, lighting.bandCount, direction);
-        for (std::size_t l = 0; l < bands.size(); ++l)
-            channel.bandsOnGrid[l].push_back(bands[l]);
-    }
+/// The channels whose mean is positive.
+std::vector<Channel> sampleChannels(const Lighting& lighting, const DirectionGrid& grid) {
     constexpr double kRounding = 1e-10;
-    channel.tolerance = kRounding * channel.coefficients[0];
-    return channel;
+    const auto bandCount = static_cast<std::size_t>(lighting.bandCount);
+    std::vector<Channel> channels;
+    for (int index = 0; index < 3; ++index) {
+        const double mean = lighting.coefficients[0][index];
+        if (!(mean > 0.0)) continue;
+        Channel channel{{}, std::vector<std::vector<double>>(bandCount), kRounding * mean};
+        for (const Vec3d& coefficient : lighting.coefficients)
+            channel.coefficients.push_back(coefficient[index]);
+        for (std::vector<double>& band : channel.bandsOnGrid)
+            band.reserve(grid.directions.size());
+        channels.push_back(std::move(channel));
+    }
+    std::vector<double> basis(lighting.coefficients.size()), bands(bandCount);
+    for (const Vec3d& direction : grid.directions) {
+        evaluateSh(direction, lighting.bandCount, basis);
+        for (Channel& channel : channels) {
+            sumBands(channel.coefficients, basis, bands);
+            for (std::size_t l = 0; l < bandCount; ++l)
+                channel.bandsOnGrid[l].push_back(bands[l]);
+        }
+    }
+    return channels;
 }
 
 std::vector<double> smoothOnGrid(const Channel& channel, std::span<const double> factors) {
@@ -112,26 +124,79 @@ std::vector<std::size_t> findLowMinima(const DirectionGrid& grid, std::span<cons
     return minima;
 }
 
-/// Walks downhill from a direction by compass search: to the best of four
-/// neighbours, or closer if none is better.
-Vec3d descend(std::span<const double> coefficients, int bandCount, Vec3d direction,
-              double stepRadians) {
-    constexpr double kFinestStepRadians = 1e-6;  // leaves an error of its square
-    double lowest = reconstructSh(coefficients, bandCount, direction);
-    while (stepRadians > kFinestStepRadians) {
+/// A function about a direction to second order, in the plane across it.
+struct LocalShape {
+    double value, slopeX, slopeY, xx, xy, yy;
+};
+
+template <class ValueAt>
+LocalShape measureShape(const ValueAt& valueAt) {
+    constexpr double h = 1e-4;  // radians; leaves slopes an error of its square
+    const double value = valueAt(0, 0), east = valueAt(h, 0), west = valueAt(-h, 0),
+                 north = valueAt(0, h), south = valueAt(0, -h);
+    const double diagonal = valueAt(h, h) + valueAt(-h, -h) - valueAt(h, -h) - valueAt(-h, h);
+    return {value,
+            (east - west) / (2 * h),
+            (north - south) / (2 * h),
+            (east + west - 2 * value) / (h * h),
+            diagonal / (4 * h * h),
+            (north + south - 2 * value) / (h * h)};
+}
+
+/// A step to the lowest point of a shape, no longer than the radius.
+struct DownhillStep {
+    double x = 0.0;
+    double y = 0.0;
+    double gain = 0.0;  ///< by how much the function should fall
+};
+
+DownhillStep stepDownhill(LocalShape shape, double radius) {
+    // Bend a saddle or a trough into a bowl.
+    constexpr double kLeastCurvature = 1e-6;  // of the largest
+    const double middle = 0.5 * (shape.xx + shape.yy);
+    const double spread = std::hypot(0.5 * (shape.xx - shape.yy), shape.xy);
+    const double leastCurvature = kLeastCurvature * (std::abs(middle) + spread);
+    const double bend = std::max(leastCurvature - (middle - spread), 0.0);
+    shape.xx += bend;
+    shape.yy += bend;
+
+    const double determinant = shape.xx * shape.yy - shape.xy * shape.xy;
+    if (!(determinant > 0.0)) return {};
+    DownhillStep step;
+    step.x = (shape.xy * shape.slopeY - shape.yy * shape.slopeX) / determinant;
+    step.y = (shape.xy * shape.slopeX - shape.xx * shape.slopeY) / determinant;
+    const double length = std::hypot(step.x, step.y);
+    if (length > radius) {
+        step.x *= radius / length;
+        step.y *= radius / length;
+    }
+    step.gain = -0.5 * (step.x * shape.slopeX + step.y * shape.slopeY);
+    return step;
+}
+
+/// Walks downhill from a direction by Newton's method, within a radius that shrinks where a step
+/// does not lead down, until there is no more than the tolerance to gain.
+Vec3d descend(std::span<const double> coefficients, int bandCount, Vec3d direction, double radius,
+              double tolerance) {
+    constexpr int kMaxStepCount = 50;
+    const double largestRadius = radius;
+    for (int count = 0; count < kMaxStepCount; ++count) {
         const Frame<double> frame = frameFromNormal(direction);
-        bool hasMoved = false;
-        for (const Vec3d& offset :
-             {frame.tangent, -frame.tangent, frame.bitangent, -frame.bitangent}) {
-            const Vec3d neighbour = (frame.normal + offset * stepRadians).normalized();
-            const double value = reconstructSh(coefficients, bandCount, neighbour);
-            if (value < lowest) {
-                lowest = value;
-                direction = neighbour;
-                hasMoved = true;
-            }
+        const auto moveBy = [&](double x, double y) {
+            return (frame.normal + frame.tangent * x + frame.bitangent * y).normalized();
+        };
+        const auto valueAt = [&](double x, double y) {
+            return reconstructSh(coefficients, bandCount, moveBy(x, y));
+        };
+        const LocalShape shape = measureShape(valueAt);
+        const DownhillStep step = stepDownhill(shape, radius);
+        if (step.gain <= tolerance) break;
+        if (valueAt(step.x, step.y) < shape.value) {
+            direction = moveBy(step.x, step.y);
+            radius = std::min(2.0 * radius, largestRadius);
+        } else {
+            radius = 0.25 * std::hypot(step.x, step.y);
         }
-        if (!hasMoved) stepRadians *= 0.5;
     }
     return direction;
 }
@@ -145,10 +210,13 @@ double raiseLambda(const Channel& channel, const DirectionGrid& grid, double lam
     for (std::size_t i = 0; i < smoothed.size(); ++i)
         smoothed[i] *= factors[static_cast<std::size_t>(shDegree(static_cast<int>(i)))];
 
+    constexpr double kPrecision = 0.01;
+    std::vector<double> basis(smoothed.size()), bands(factors.size());
     for (const std::size_t k : findLowMinima(grid, smoothOnGrid(channel, factors))) {
-        const Vec3d lowest =
-            descend(smoothed, bandCount, grid.directions[k], grid.spacingRadians());
-        const auto bands = evaluateBands(channel.coefficients, bandCount, lowest);
+        const Vec3d lowest = descend(smoothed, bandCount, grid.directions[k], grid.spacingRadians(),
+                                     kPrecision * channel.tolerance);
+        evaluateSh(lowest, bandCount, basis);
+        sumBands(channel.coefficients, basis, bands);
         if (smoothAtPoint(bands, lambda) < -channel.tolerance)
             lambda = findLeastLambda(bands, lambda);
     }
@@ -162,11 +230,7 @@ std::vector<double> deringingFactors(const Lighting& lighting, const DeringingOp
     const Lighting judged =
         options.nonNegative == NonNegative::irradiance ? convolveWithCosine(lighting) : lighting;
     const DirectionGrid grid = makeGrid(lighting.bandCount);
-    std::vector<Channel> channels;
-    for (int channel = 0; channel < 3; ++channel) {
-        if (judged.coefficients[0][channel] > 0.0)
-            channels.push_back(sampleChannel(judged, channel, grid));
-    }
+    const std::vector<Channel> channels = sampleChannels(judged, grid);
 
     // Near the end each round squares what is missing.
     constexpr int kMaxRoundCount = 100;
