@@ -3,11 +3,10 @@
 //
 //   y_k(ω) = √(m/2π) on [2πk/m, 2π(k+1)/m), 0 elsewhere                          [Dachsbacher17]
 //
-// A floor with a wall beside it is lit by a narrow sun that wanders across the sky. Each receiver
-// projects its transfer once, visibility times cosine and one bounce, and is lit by a dot product.
-// Rows of the picture are positions of the sun, columns places on the floor, the wall at the left.
-// From the top: light alone, with shadows, with a bounce; the last repeats the last with 16 times
-// as many functions, which is close to the truth.
+// A floor beside a red wall is lit by a narrow sun. Each receiver projects its transfer, visibility
+// times cosine and one bounce, once; then light is a dot product. Rows of the picture are positions
+// of the sun, columns places on the floor, the wall at the left. From the top: without shadows,
+// with them, with a bounce, all in 32 functions; and the last again in 512, close to the truth.
 //
 //   05_flatland OUT.png
 
@@ -26,41 +25,36 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kRowCount = 96;        // positions of the sun, a row each
 constexpr int kReceiverCount = 384;  // on the floor; as many on the wall
-constexpr double kWallHeight = 1.0, kFloorWidth = 3.0;
-constexpr double kSunHalfAngle = 0.12;
-
-struct Point {
-    double x, y;
-};
+constexpr double kWallHeight = 1.0, kFloorWidth = 3.0, kSunHalfAngle = 0.12;
 
 /// A point of the scene, and the direction that its surface faces.
 struct Receiver {
-    Point place;
+    double x, y;
     double normalAngle;
     prt::Vec3d albedo;
 };
 
 /// The floor runs along +x from the origin, the wall up along +y.
 std::vector<Receiver> makeReceivers() {
-    std::vector<Receiver> receivers;
-    for (int i = 0; i < kReceiverCount; ++i)
-        receivers.push_back(
-            {{kFloorWidth * (i + 0.5) / kReceiverCount, 0.0}, 0.5 * kPi, {0.8, 0.8, 0.8}});
-    for (int i = 0; i < kReceiverCount; ++i)
-        receivers.push_back(
-            {{0.0, kWallHeight * (i + 0.5) / kReceiverCount}, 0.0, {0.8, 0.15, 0.1}});
-    return receivers;
+    std::vector<Receiver> floor, wall;
+    for (int i = 0; i < kReceiverCount; ++i) {
+        const double t = (i + 0.5) / kReceiverCount;
+        floor.push_back({kFloorWidth * t, 0.0, 0.5 * kPi, {0.8, 0.8, 0.8}});
+        wall.push_back({0.0, kWallHeight * t, 0.0, {0.8, 0.15, 0.1}});
+    }
+    floor.insert(floor.end(), wall.begin(), wall.end());
+    return floor;
 }
 
 /// The receiver that a ray from another meets, if any.
 std::optional<std::size_t> findHit(const Receiver& from, double angle) {
     const double dx = std::cos(angle), dy = std::sin(angle);
-    if (from.place.x > 0.0 && dx < 0.0) {  // from the floor to the wall
-        const double height = -from.place.x / dx * dy;
+    if (from.x > 0.0 && dx < 0.0) {  // from the floor to the wall
+        const double height = -from.x / dx * dy;
         if (height >= 0.0 && height < kWallHeight)
             return kReceiverCount + static_cast<std::size_t>(height / kWallHeight * kReceiverCount);
-    } else if (from.place.x == 0.0 && dy < 0.0 && dx > 0.0) {  // from the wall to the floor
-        const double distance = -from.place.y / dy * dx;
+    } else if (from.x == 0.0 && dy < 0.0 && dx > 0.0) {  // from the wall to the floor
+        const double distance = -from.y / dy * dx;
         if (distance < kFloorWidth)
             return static_cast<std::size_t>(distance / kFloorWidth * kReceiverCount);
     }
@@ -114,8 +108,7 @@ Coefficients projectLight(double sunAngle, int functionCount) {
     Coefficients light(static_cast<std::size_t>(functionCount), prt::Vec3d(0.0));
     for (int i = 0; i < kSampleCount; ++i) {
         const double angle = 2.0 * kPi * (i + 0.5) / kSampleCount;
-        prt::Vec3d radiance(0.0);
-        if (angle < kPi) radiance = prt::Vec3d(0.03, 0.05, 0.09);
+        prt::Vec3d radiance = prt::Vec3d(0.03, 0.05, 0.09) * (angle < kPi ? 1.0 : 0.0);
         if (std::abs(angle - sunAngle) < kSunHalfAngle) radiance += prt::Vec3d(8.0, 7.5, 6.5);
         light[static_cast<std::size_t>(i * functionCount / kSampleCount)] +=
             radiance * (height * 2.0 * kPi / kSampleCount);
@@ -151,7 +144,7 @@ int main(int argc, char** argv) {
         for (const auto& kind : {transfer.unshadowed, transfer.shadowed, transfer.bounced})
             drawBand(receivers, kind, picture);
         drawBand(receivers, fine.bounced, picture);
-        prt::writePng(argv[1], prt::encodeForDisplay(picture));
+        prt::writePng(argv[1], prt::encodeForDisplay(picture, {.exposureStops = -0.7f}));
         return 0;
     } catch (const prt::Error& error) {
         std::fprintf(stderr, "%s\n", error.message().c_str());
