@@ -1,14 +1,17 @@
 // The spherical basis and what is built on it, on one core. `seconds_per_direction` is what the
-// tables of peers call ns per direction.
+// tables of peers call ns per direction. Times are also given as multiples of what the same run
+// took to write the results (`over_store`), to read the input (`over_read`), or for one
+// multiply-add of the widest vectors (`multiply_adds`).
 #include <benchmark/benchmark.h>
 
 #include <array>
-#include <cstring>
 #include <vector>
 
+#include "benchmarks/yardsticks.h"
 #include "prt/base/random.h"
 #include "prt/basis/haar_product.h"
 #include "prt/basis/sh.h"
+#include "prt/basis/sh_projection.h"
 #include "prt/basis/sh_rotation.h"
 #include "prt/light/analytic_lights.h"
 #include "prt/light/deringing.h"
@@ -37,6 +40,27 @@ struct Directions {
     }
 };
 
+/// What a benchmark's loop has taken since the start, as a multiple of a yardstick.
+class Comparison {
+  public:
+    /// @param workCount  how often an iteration does its work
+    Comparison(benchmark::State& state, double workCount = 1.0)
+        : state_(state), workCount_(workCount), startSeconds_(readCpuSeconds()) {}
+
+    void stop() { elapsedSeconds_ = readCpuSeconds() - startSeconds_; }
+
+    void print(const char* name, double yardstickSeconds) {
+        const double count = static_cast<double>(state_.iterations()) * workCount_;
+        state_.counters[name] = elapsedSeconds_ / (count * yardstickSeconds);
+    }
+
+  private:
+    benchmark::State& state_;
+    double workCount_;
+    double startSeconds_;
+    double elapsedSeconds_ = 0.0;
+};
+
 void countDirections(benchmark::State& state) {
     state.counters["seconds_per_direction"] =
         benchmark::Counter(static_cast<double>(state.iterations()) * kDirectionCount,
@@ -51,6 +75,7 @@ void evaluateBatches(benchmark::State& state) {
     const std::span<float> values = std::span(room).first(
         static_cast<std::size_t>(shCoefficientCount(bandCount)) * kShBatchSize);
     using Batch = std::span<const float, kShBatchSize>;
+    Comparison comparison(state, kDirectionCount / kShBatchSize);
     for (auto _ : state) {
         for (std::size_t i = 0; i < kDirectionCount; i += kShBatchSize) {
             evaluateShBatch(Batch(&directions.x[i], kShBatchSize),
@@ -59,33 +84,26 @@ void evaluateBatches(benchmark::State& state) {
             benchmark::ClobberMemory();
         }
     }
+    comparison.stop();
+    comparison.print("over_store", measureStoreSeconds(values.size_bytes()));
+    comparison.print("multiply_adds", measureMultiplyAddSeconds());
     countDirections(state);
 }
 BENCHMARK(evaluateBatches)->Name("sh/batch_of_16")->Arg(3)->Arg(5)->Arg(10);
-
-/// What no evaluation that hands out its values can beat: writing that many bytes.
-void storeBatches(benchmark::State& state) {
-    alignas(64) std::array<float, shCoefficientCount(5) * kShBatchSize> values;
-    for (auto _ : state) {
-        for (std::size_t i = 0; i < kDirectionCount; i += kShBatchSize) {
-            std::memset(values.data(), 0, sizeof(values));
-            benchmark::ClobberMemory();
-        }
-    }
-    countDirections(state);
-}
-BENCHMARK(storeBatches)->Name("sh/storing_batch_of_16/5");
 
 void evaluateSingly(benchmark::State& state) {
     const int bandCount = static_cast<int>(state.range(0));
     const Directions directions;
     std::vector<float> values(static_cast<std::size_t>(shCoefficientCount(bandCount)));
+    Comparison comparison(state, kDirectionCount);
     for (auto _ : state) {
         for (std::size_t i = 0; i < kDirectionCount; ++i) {
             evaluateSh(Vec3f(directions.x[i], directions.y[i], directions.z[i]), bandCount, values);
             benchmark::ClobberMemory();
         }
     }
+    comparison.stop();
+    comparison.print("multiply_adds", measureMultiplyAddSeconds());
     countDirections(state);
 }
 BENCHMARK(evaluateSingly)->Name("sh/one_direction")->Arg(3)->Arg(5)->Arg(10)->Arg(32);
@@ -110,11 +128,14 @@ void rotateChannels(benchmark::State& state, std::size_t channelCount) {
     const auto channelSize = static_cast<std::size_t>(shCoefficientCount(bandCount));
     std::vector<float> source(channelCount * channelSize, 1.0f), rotated(source.size());
     Mat3d rotation = kRotation;
+    Comparison comparison(state);
     for (auto _ : state) {
         benchmark::DoNotOptimize(rotation);
         rotateSh(rotation, bandCount, source, rotated);
         benchmark::ClobberMemory();
     }
+    comparison.stop();
+    comparison.print("multiply_adds", measureMultiplyAddSeconds());
 }
 BENCHMARK_CAPTURE(rotateChannels, 1, 1)
     ->Name("sh/rotation/1_channel")
@@ -139,13 +160,17 @@ void rotateBatches(benchmark::State& state, std::size_t functionCount) {
         rotations[i] = static_cast<float>(kRotation.getValue()[entry]);
     }
     std::vector<float> source(functionCount * count, 1.0f), rotated(kShBatchSize * count);
+    Comparison comparison(state);
     for (auto _ : state) {
         rotateShBatch(rotations, bandCount, source, rotated);
         benchmark::ClobberMemory();
     }
+    comparison.stop();
     state.counters["seconds_per_rotation"] =
         benchmark::Counter(static_cast<double>(state.iterations()) * kShBatchSize,
                            benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    comparison.print("over_store", measureStoreSeconds(rotated.size() * sizeof(float)));
+    comparison.print("multiply_adds", measureMultiplyAddSeconds());
 }
 BENCHMARK_CAPTURE(rotateBatches, own, kShBatchSize)
     ->Name("sh/16_rotations/own_source")
@@ -170,30 +195,15 @@ Environment makeEnvironment(SphereMap map, int width, int height) {
 
 void projectEnvironment(benchmark::State& state, SphereMap map, int width, int height) {
     const Environment environment = makeEnvironment(map, width, height);
+    Comparison comparison(state);
     for (auto _ : state) {
         benchmark::DoNotOptimize(projectLighting(environment, static_cast<int>(state.range(0))));
     }
+    comparison.stop();
     state.SetItemsProcessed(state.iterations() * width * height);
+    const auto& pixels = environment.radiance.pixels;
+    comparison.print("over_read", measureReadSeconds(pixels.size() * sizeof(Vec3f)));
 }
-/// What no projection can beat: reading the texels.
-void readEnvironment(benchmark::State& state) {
-    const Environment environment = makeEnvironment(SphereMap::latLong, 1024, 512);
-    const float* const numbers = &environment.radiance.pixels.data()->x;
-    constexpr std::size_t kCount = 3 * 1024 * 512, kLanes = 64;
-    for (auto _ : state) {
-        std::array<float, kLanes> sums{};
-        for (std::size_t i = 0; i < kCount; i += kLanes) {
-            for (std::size_t lane = 0; lane < kLanes; ++lane)
-                sums[lane] += numbers[i + lane];
-        }
-        benchmark::DoNotOptimize(sums);
-    }
-    state.SetBytesProcessed(state.iterations() * kCount * sizeof(float));
-}
-BENCHMARK(readEnvironment)
-    ->Name("projectEnvironment/reading_1024x512")
-    ->Unit(benchmark::kMillisecond);
-
 BENCHMARK_CAPTURE(projectEnvironment, lat_long_1024x512, SphereMap::latLong, 1024, 512)
     ->Arg(3)
     ->Arg(5)
@@ -205,6 +215,20 @@ BENCHMARK_CAPTURE(projectEnvironment, angular_map_1000x1000, SphereMap::angularM
 BENCHMARK_CAPTURE(projectEnvironment, vertical_cross_768x1024, SphereMap::verticalCross, 768, 1024)
     ->Arg(5)
     ->Unit(benchmark::kMillisecond);
+
+/// By the rule that is exact for all functions of so many bands.
+void projectFunction(benchmark::State& state) {
+    const int bandCount = static_cast<int>(state.range(0));
+    const auto function = [](const Vec3d& direction) { return direction.x * direction.y; };
+    for (auto _ : state)
+        benchmark::DoNotOptimize(projectSh(function, bandCount, bandCount - 1));
+}
+BENCHMARK(projectFunction)
+    ->Name("sh/projection_of_function")
+    ->Arg(3)
+    ->Arg(5)
+    ->Arg(10)
+    ->Unit(benchmark::kMicrosecond);
 
 /// Five suns in different colours before a dim sky: what needs many rounds.
 Lighting makeSuns(int bandCount) {
