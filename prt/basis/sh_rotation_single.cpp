@@ -270,12 +270,13 @@ void rotateDegree2(const Imath::Matrix33<Real>& r, const Real* source, Real* rot
     const auto entry = [&](const Row& row, int j) {
         return row.x * r[j][0] + row.y * r[j][1] + row.z * r[j][2];
     };
-    const Row x = multiplyRow(0), y = multiplyRow(1), z = multiplyRow(2);  // of R A
+    const Row x = multiplyRow(0), y = multiplyRow(1);  // of R A
+    const Real turnedXx = entry(x, 0), turnedYy = entry(y, 1);
     rotated[4] = entry(x, 1);
     rotated[5] = -entry(y, 2);
-    rotated[6] = kRoot3 / 2 * entry(z, 2);
+    rotated[6] = -kRoot3 / 2 * (turnedXx + turnedYy);
     rotated[7] = -entry(x, 2);
-    rotated[8] = Real(0.5) * (entry(x, 0) - entry(y, 1));
+    rotated[8] = Real(0.5) * (turnedXx - turnedYy);
 }
 
 /// Up to three bands, which are rotated sooner than turns are found.
