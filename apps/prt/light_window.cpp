@@ -39,7 +39,7 @@ void addWindowOptions(CLI::App& command, WindowArguments& arguments) {
         ->capture_default_str();
     command
         .add_option("--nonnegative", arguments.nonNegative,
-                    "what auto keeps so: the light, its irradiance, what ASSET reflects")
+                    "what auto keeps so: the light, irradiance, what ASSET reflects")
         ->type_name("radiance|irradiance|ASSET")
         ->capture_default_str();
 }

@@ -285,6 +285,22 @@ TEST_F(CliLight, AReportShowsTheLightItsBandsAndItsNumbers) {
     EXPECT_EQ(again.exitCode, 2) << "a folder that is there is not overwritten";
 }
 
+TEST_F(CliLight, PrefilteredCubesGoFromTheMirrorToTheMatt) {
+    print({"sky:30,40", "--prefilter", "cubes", "--prefilter-size", "16"});
+    double lastBrightest = 1e9;
+    for (const std::string name : {"roughness-0.00", "roughness-0.40", "roughness-1.00"}) {
+        const Image cube = readImage(folder.path() / "cubes" / (name + ".exr"));
+        EXPECT_EQ(cube.width, 16);
+        EXPECT_EQ(cube.height, 96);
+        double brightest = 0.0;
+        for (const Vec3f& texel : cube.pixels)
+            brightest = std::max(brightest, static_cast<double>(texel.y));
+        EXPECT_LT(brightest, lastBrightest) << name;
+        lastBrightest = brightest;
+    }
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "cubes" / "diffuse.exr"));
+}
+
 TEST_F(CliLight, AReportOfDarknessIsAPageToo) {
     print({"uniform:0", "--report", "dark"});
     EXPECT_NE(readText(folder.path() / "dark" / "index.html").find("uniform:0 as a light"),
