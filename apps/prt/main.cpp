@@ -28,7 +28,8 @@ constexpr const char* kDescription =
 
 constexpr const char* kFooter =
     R"(SCENE is a .gltf, .glb, .obj or .ply file. LIGHT is an environment image, uniform:r,g,b,
-sun:azimuth,elevation,angle, or the JSON that `prt light` writes (see prt light --help).
+sun:azimuth,elevation,angle, sky:… or daylight:azimuth,elevation, or the JSON that `prt light` writes
+(see prt light --help).
 Exit codes: 0 done, 1 the data or the machine is at fault, 2 wrong usage, 75 interrupted (see --checkpoint).)";
 
 int fail(ExitCode code, const std::string& message) {
