@@ -1,3 +1,6 @@
+// Bibliography
+//   [Dachsbacher17]  Precomputed radiance transfer
+//   [Pinchon07]      Rotation matrices for real spherical harmonics
 #include <algorithm>
 #include <array>
 #include <numbers>
