@@ -154,14 +154,10 @@ std::unique_ptr<DistantLight> makeExactLight(const LightSource& light, const Mat
     return makeBandLimitedLight(rotate(light.lighting, rotation));
 }
 
-Environment makeBackground(const LightSource& light, const Mat3d& rotation) {
+Environment makeBackground(const LightSource& light) {
     constexpr int kReconstructionWidth = 512;
-    if (!light.environment)
-        return {SphereMap::latLong,
-                reconstructLatLong(rotate(light.lighting, rotation), kReconstructionWidth)};
-    if (rotation == Mat3d()) return *light.environment;
-    const int height = std::clamp(light.environment->radiance.height, 256, 2048);
-    return rotate(*light.environment, rotation, SphereMap::latLong, 2 * height, height);
+    if (light.environment) return *light.environment;
+    return {SphereMap::latLong, reconstructLatLong(light.lighting, kReconstructionWidth)};
 }
 
 Environment drawLight(const LightSource& light, const Mat3d& rotation, SphereMap map,

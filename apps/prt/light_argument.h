@@ -61,7 +61,7 @@ std::unique_ptr<DistantLight> makeExactLight(const LightSource& light, const Mat
 
 /// The light as an image to be seen behind a scene: the environment, or
 /// what the coefficients stand for.
-Environment makeBackground(const LightSource& light, const Mat3d& rotation);
+Environment makeBackground(const LightSource& light);
 
 /// The light itself as an image; coefficients stand for themselves.
 ///

@@ -46,12 +46,13 @@ Image renderPicture(const RenderArguments& arguments, const Asset& asset, const 
         fmt::format("{}, {} bands", transportName(transport), light.lighting.bandCount));
 
     std::optional<Environment> background;
-    if (arguments.background) background = makeBackground(light, rotation);
+    if (arguments.background) background = makeBackground(light);
     const RayScene rays(asset.scene);
     return renderView(asset.scene, rays, vertexRadiance, camera,
                       {.width = arguments.view.size.width,
                        .height = arguments.view.size.height,
                        .background = background ? &*background : nullptr,
+                       .worldFromBackground = rotation,
                        .progress = log.callback()});
 }
 

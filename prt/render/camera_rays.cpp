@@ -37,6 +37,11 @@ void checkView(const Camera& camera, const RenderOptions& options) {
 
 }  // namespace
 
+Vec3f lookUpBackground(const RenderOptions& view, const Vec3f& direction) {
+    if (!view.background) return Vec3f(0.0f);
+    return lookUpRadiance(*view.background, view.worldFromBackground.transposed() * direction);
+}
+
 CameraRays::CameraRays(const Scene& scene, const RayScene& rays, const Camera& camera,
                        const RenderOptions& options)
     : scene_(scene),

@@ -15,6 +15,11 @@ struct SeenPoint {
     Hit hit;                             ///< escaped where there is no visible surface
 };
 
+/// What a ray that meets no surface sees: the view's background as it is turned, or black.
+///
+/// @param direction  unit
+Vec3f lookUpBackground(const RenderOptions& view, const Vec3f& direction);
+
 /// The rays of a view: samplesPerAxis² a pixel, jittered in as many strata, all of the same weight.
 /// Views of the same options, whatever they show, look along the same rays.
 class CameraRays {

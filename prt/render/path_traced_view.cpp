@@ -15,8 +15,8 @@ constexpr std::size_t kBlockPixels = 1024;
 /// Adds up the pixels of one block of a view.
 class BlockTracer {
   public:
-    BlockTracer(const Scene& scene, const Environment* background, std::vector<SeenPoint> seen)
-        : scene_(scene), background_(background), seen_(std::move(seen)) {}
+    BlockTracer(const Scene& scene, const RenderOptions& view, std::vector<SeenPoint> seen)
+        : scene_(scene), view_(view), seen_(std::move(seen)) {}
 
     /// Where paths leave the surfaces seen, in the order of the rays that see one.
     std::vector<PathOrigin> placeOrigins(const RayScene& rays) const {
@@ -37,7 +37,7 @@ class BlockTracer {
             for (std::size_t i = pixel * raysPerPixel; i < (pixel + 1) * raysPerPixel; ++i) {
                 const SeenPoint& seen = seen_[i];
                 if (seen.hit.escaped) {
-                    if (background_) sum += Vec3d(lookUpRadiance(*background_, seen.direction));
+                    sum += Vec3d(lookUpBackground(view_, seen.direction));
                     continue;
                 }
                 const Vec3d albedo(evaluateAlbedo(scene_, seen.hit.point));
@@ -52,7 +52,7 @@ class BlockTracer {
 
   private:
     const Scene& scene_;
-    const Environment* background_;
+    const RenderOptions& view_;
     std::vector<SeenPoint> seen_;
 };
 
@@ -74,7 +74,7 @@ PathTracedView pathTraceView(const Scene& scene, const RayScene& rays, const Dis
             return !options.progress ||
                    options.progress({"path-trace", "pixels", begin + done, pixelCount});
         };
-        const BlockTracer tracer(scene, view.background, cameraRays.findSeenPoints(begin, count));
+        const BlockTracer tracer(scene, view, cameraRays.findSeenPoints(begin, count));
         tracer.addUp(estimateRadiance(scene, rays, light, tracer.placeOrigins(rays), samplesPerRay,
                                       blockOptions),
                      std::span(result.radiance.pixels).subspan(begin, count),

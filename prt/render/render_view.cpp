@@ -22,7 +22,7 @@ class ViewRenderer {
           cameraRays_(scene, rayScene, camera, options),
           vertexRadiance_(vertexRadiance),
           vertexOffsets_(vertexOffsets(scene)),
-          background_(options.background) {
+          options_(options) {
         PRT_ASSERT(vertexRadiance.size() == scene.vertexCount(), "one radiance a vertex");
     }
 
@@ -40,8 +40,7 @@ class ViewRenderer {
 
   private:
     Vec3f seenRadiance(const SeenPoint& seen) const {
-        if (seen.hit.escaped)
-            return background_ ? lookUpRadiance(*background_, seen.direction) : Vec3f(0.0f);
+        if (seen.hit.escaped) return lookUpBackground(options_, seen.direction);
         const SurfacePoint& point = seen.hit.point;
         const Mesh& mesh = scene_.meshes[point.mesh];
         const auto meshRadiance =
@@ -54,7 +53,7 @@ class ViewRenderer {
     CameraRays cameraRays_;
     std::span<const Vec3f> vertexRadiance_;
     std::vector<std::size_t> vertexOffsets_;
-    const Environment* background_;
+    const RenderOptions& options_;
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ struct RenderOptions {
     int height = 720;
     int samplesPerAxis = 4;  ///< stratified, samplesPerAxis² rays a pixel; at most 64
     const Environment* background = nullptr;  ///< seen where no surface is; black without
+    Mat3d worldFromBackground{};              ///< a rotation: L(R⁻¹ω)
     std::uint64_t seed = 1;
     int threadCount = 0;  ///< 0: one a core
     ProgressCallback progress{};

@@ -297,17 +297,21 @@ TEST(RenderView, TheBackgroundIsSeenWhereNoSurfaceIs) {
     const Scene scene = assembleScene({{makeWall(-1, 0, 2, -2, 2), Vec3f(0.125f)}});
     RenderOptions options = makeOptions(kSize, kSize);
     options.background = &environment;
-    const Image image = renderUniform(scene, kWhite, makeSquareCamera(), options);
-    for (int y = 0; y < kSize; ++y) {
-        for (int x = 0; x < kSize; ++x) {
-            if (x >= kSize / 2) {
-                ASSERT_EQ(image.at(x, y), Vec3f(0.125f));
-                continue;
+    for (const Mat3d& worldFromBackground : {Mat3d(), rotationX(0.5) * rotationY(2.0)}) {
+        options.worldFromBackground = worldFromBackground;
+        const Image image = renderUniform(scene, kWhite, makeSquareCamera(), options);
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) {
+                if (x >= kSize / 2) {
+                    ASSERT_EQ(image.at(x, y), Vec3f(0.125f));
+                    continue;
+                }
+                const Vec3f centre(2.0f * (static_cast<float>(x) + 0.5f) / kSize - 1.0f,
+                                   1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / kSize, -1.0f);
+                const Vec3f expected =
+                    Vec3f(2.0f) + worldFromBackground.transposed() * centre.normalized();
+                ASSERT_TRUE(image.at(x, y).equalWithAbsError(expected, kTexel)) << x << " " << y;
             }
-            const Vec3f centre(2.0f * (static_cast<float>(x) + 0.5f) / kSize - 1.0f,
-                               1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / kSize, -1.0f);
-            const Vec3f expected = Vec3f(2.0f) + centre.normalized();
-            ASSERT_TRUE(image.at(x, y).equalWithAbsError(expected, kTexel)) << x << " " << y;
         }
     }
 }
