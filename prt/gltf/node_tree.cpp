@@ -27,15 +27,11 @@ Affine3d parseMatrix(const JsonCursor& value) {
 
 /// The rotation of a unit quaternion (x, y, z, w).
 Mat3d parseRotation(const JsonCursor& value) {
-    std::array<double, 4> q = value.toNumbers<4>();
-    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(std::abs(length - 1.0) <= kRotationTolerance)) value.reject("is not a unit quaternion");
-    for (double& component : q)
-        component /= length;
-    const auto [x, y, z, w] = q;
-    return Mat3d(1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),  //
-                 2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),  //
-                 2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y));
+    const auto [x, y, z, w] = value.toNumbers<4>();
+    const Imath::Quatd quaternion(w, x, y, z);
+    if (!(std::abs(quaternion.length() - 1.0) <= kRotationTolerance))
+        value.reject("is not a unit quaternion");
+    return rotationFromQuaternion(quaternion.normalized());
 }
 
 Affine3d parseTransform(const JsonCursor& node) {

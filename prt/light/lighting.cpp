@@ -27,12 +27,17 @@ Lighting changeChannels(const Lighting& lighting, const Change& change) {
 }  // namespace
 
 Lighting rotate(const Lighting& lighting, const Mat3d& rotation) {
-    const ShRotation shRotation(rotation, lighting.bandCount);
-    std::vector<double> source;
-    return changeChannels(lighting, [&](std::vector<double>& values) {
-        source = values;
-        shRotation.apply(source, values);
-    });
+    const std::size_t count = lighting.coefficients.size();
+    std::vector<double> channels;
+    for (int channel = 0; channel < 3; ++channel)
+        for (const Vec3d& coefficient : lighting.coefficients)
+            channels.push_back(coefficient[channel]);
+    rotateSh(rotation, lighting.bandCount, channels, channels);
+
+    Lighting rotated(lighting.bandCount);
+    for (std::size_t i = 0; i < count; ++i)
+        rotated.coefficients[i] = {channels[i], channels[count + i], channels[2 * count + i]};
+    return rotated;
 }
 
 Lighting add(const Lighting& a, const Lighting& b) {

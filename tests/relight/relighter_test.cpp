@@ -1,7 +1,6 @@
 #include "prt/relight/relighter.h"
 
 #include <gtest/gtest.h>
-#include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "prt/base/error.h"
 #include "prt/base/random.h"
+#include "tests/support/instruction_sets.h"
 
 namespace prt {
 namespace {
@@ -227,37 +227,15 @@ TEST_P(RelighterOfEncoding, PartsThatEndInsideABlockLeaveTheRestAlone) {
     EXPECT_EQ(part[5], untouched);
 }
 
-/// Makes kernels run on one instruction set, and on the widest again afterwards.
-class PinnedTarget {
-  public:
-    explicit PinnedTarget(std::int64_t target) { choose(target); }
-    ~PinnedTarget() { choose(0); }
-    PinnedTarget(const PinnedTarget&) = delete;
-    PinnedTarget& operator=(const PinnedTarget&) = delete;
-
-  private:
-    static void choose(std::int64_t targets) {
-        hwy::SetSupportedTargetsForTest(targets);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    }
-};
-
 TEST_P(RelighterOfEncoding, GivesTheSumOfProductsOnEveryInstructionSet) {
     const CompressedTransfer transfer = makeTransfer(5, 35);
     const Relighter relighter(transfer, kTransport);
     const Lighting lighting = makeRandomLighting(5, 7);
-    const std::int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
-    int targetCount = 0;
-    for (const std::int64_t target : {HWY_AVX3, HWY_AVX2, HWY_SSE4, HWY_NEON}) {
-        if ((supported & target) == 0) continue;
-        SCOPED_TRACE(hwy::TargetName(target));
-        const PinnedTarget pinned(target);
+    onEveryInstructionSet([&] {
         std::vector<Vec3f> radiance(35);
         relighter.relight(lighting, radiance);
         expectRelit(transfer, lighting, radiance, 1);
-        ++targetCount;
-    }
-    EXPECT_GE(targetCount, 1);
+    });
 }
 
 // A22.
