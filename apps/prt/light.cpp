@@ -86,16 +86,23 @@ void writeReportFolder(const LightArguments& arguments, const LightSum& sum,
     folder.commit();
 }
 
+void checkBandCount(int bandCount, int largest, const std::string& option) {
+    if (bandCount > largest)
+        throw Error(ErrorCode::invalidOption, fmt::format("holds at most {} bands", largest),
+                    option, fmt::format("add --bands {}", largest));
+}
+
 /// Finds out before the work what would make it fail at its end.
 void checkArguments(const LightArguments& arguments) {
     if (!arguments.reconstruction.empty())
         requireSuffix(arguments.reconstruction, kPictureSuffixes);
     checkEnvironmentOutput(arguments.environment);
-    if (arguments.bandCount > maxBandCount(arguments.convention))
-        throw Error(ErrorCode::invalidOption,
-                    fmt::format("holds at most {} bands", maxBandCount(arguments.convention)),
-                    fmt::format("--convention {}", shConventionName(arguments.convention)),
-                    fmt::format("add --bands {}", maxBandCount(arguments.convention)));
+    checkBandCount(arguments.bandCount, maxBandCount(arguments.convention),
+                   fmt::format("--convention {}", shConventionName(arguments.convention)));
+    if (arguments.window.window == "auto")
+        checkBandCount(arguments.bandCount, kMaxBandCount, "--window auto");
+    if (!arguments.report.empty())
+        checkBandCount(arguments.bandCount, kReportBandCount, "--report");
     if (!arguments.report.empty()) {
         const DeferInterrupts whileProbing;
         StagedFolder::check(arguments.report);
@@ -152,8 +159,8 @@ void addLightCommand(CLI::App& app) {
         "light", "Project a light onto spherical harmonics and print the coefficients");
     command->footer(kExamples + std::string(kLightHelp) + describeConventions());
     addInputOptions(*command, *arguments);
-    addIntegerOption(*command, "--bands", arguments->bandCount, 1, kMaxBandCount,
-                     "n bands, n*n coefficients; 1 to 10; at most those of a JSON");
+    addIntegerOption(*command, "--bands", arguments->bandCount, 1, kMaxLightingBandCount,
+                     "n bands, n*n coefficients; 1 to 64; at most those of a JSON");
     addWindowOptions(*command, arguments->window);
     addParsedOption(*command, "--convention", arguments->convention, parseShConvention,
                     conventionNames(), "for whom to print, as below")

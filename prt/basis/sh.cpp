@@ -70,10 +70,36 @@ HWY_EXPORT(evaluateBatch);
 
 namespace {
 
+/// The step from p_l and p_{l−1} to p_{l+1}, of one order.
+struct LegendreStep {
+    double last;        ///< times z p_l
+    double beforeLast;  ///< times p_{l−1}, subtracted
+};
+
+/// The steps of all orders m < n from all degrees l ≥ m, at n·m + l.
+std::vector<LegendreStep> makeLegendreSteps(int bandCount) {
+    const auto n = static_cast<std::size_t>(bandCount);
+    std::vector<LegendreStep> steps(n * n);
+    for (std::size_t m = 0; m < n; ++m) {
+        double lastFactor = 0.0;
+        for (std::size_t l = m; l < n; ++l) {
+            const double next = static_cast<double>(l) + 1.0, order = static_cast<double>(m);
+            const double factor =
+                std::sqrt((4.0 * next * next - 1.0) / (next * next - order * order));
+            steps[n * m + l] = {factor, l > m ? factor / lastFactor : 0.0};
+            lastFactor = factor;
+        }
+    }
+    return steps;
+}
+
 /// Any band count: the recurrence of [Holmes02] on p_lm sin^m θ, which is bounded by √((2l+1)/2π),
 /// so that nothing overflows.
+///
+/// @param steps  of stepBandCount bands, no fewer than bandCount
 template <class Real>
-void evaluateAnyBandCount(const Imath::Vec3<Real>& direction, int bandCount, Real* values) {
+void evaluateAnyBandCount(const Imath::Vec3<Real>& direction, int bandCount,
+                          std::span<const LegendreStep> steps, int stepBandCount, Real* values) {
     const double x = direction.x, y = direction.y, z = direction.z;
     const double sinTheta = std::hypot(x, y);
     const double cosPhi = sinTheta > 0.0 ? x / sinTheta : 1.0;
@@ -82,22 +108,29 @@ void evaluateAnyBandCount(const Imath::Vec3<Real>& direction, int bandCount, Rea
     double cosine = 1.0, sine = 0.0;                   // of m φ
     double sectoral = 0.5 * std::numbers::inv_sqrtpi;  // p_mm sin^m θ with its sign
     for (int m = 0; m < bandCount; ++m) {
-        double last = 0.0, legendre = sectoral, lastFactor = 1.0;
+        const LegendreStep* const stepOf = steps.data() + stepBandCount * m;
+        double last = 0.0, legendre = sectoral;
         for (int l = m; l < bandCount; ++l) {
             values[shIndex(l, m)] = static_cast<Real>(legendre * cosine);
             if (m > 0) values[shIndex(l, -m)] = static_cast<Real>(legendre * sine);
-            const double next = l + 1.0;
-            const double factor =
-                std::sqrt((4.0 * next * next - 1.0) / (next * next - double(m) * m));
             const double beforeLast = std::exchange(last, legendre);
-            legendre = factor * (z * last - beforeLast / lastFactor);
-            lastFactor = factor;
+            legendre = stepOf[l].last * z * last - stepOf[l].beforeLast * beforeLast;
         }
         const double nextCosine = cosPhi * cosine - sinPhi * sine;
         sine = cosPhi * sine + sinPhi * cosine;
         cosine = nextCosine;
         sectoral *= -sinTheta * std::sqrt(m == 0 ? 3.0 : (2.0 * m + 3.0) / (2.0 * m + 2.0));
     }
+}
+
+template <class Real>
+void evaluateAnyBandCount(const Imath::Vec3<Real>& direction, int bandCount, Real* values) {
+    constexpr int kTabulatedBandCount = 64;
+    static const std::vector<LegendreStep> kSteps = makeLegendreSteps(kTabulatedBandCount);
+    if (bandCount <= kTabulatedBandCount)
+        evaluateAnyBandCount(direction, bandCount, kSteps, kTabulatedBandCount, values);
+    else
+        evaluateAnyBandCount(direction, bandCount, makeLegendreSteps(bandCount), bandCount, values);
 }
 
 void checkSizes(int bandCount, std::size_t valueCount, std::size_t directionCount) {

@@ -31,8 +31,9 @@ json parseObject(const std::string& text, const std::string& name) {
 int readBandCount(const json& document, const std::string& name) {
     const auto bands = document.find("bands");
     if (bands == document.end() || !bands->is_number_integer() || *bands < 1 ||
-        *bands > kMaxBandCount)
-        fail("has no whole number \"bands\" from 1 to " + std::to_string(kMaxBandCount), name);
+        *bands > kMaxLightingBandCount)
+        fail("has no whole number \"bands\" from 1 to " + std::to_string(kMaxLightingBandCount),
+             name);
     return bands->get<int>();
 }
 

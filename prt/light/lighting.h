@@ -10,6 +10,10 @@
 
 namespace prt {
 
+/// The most bands of lighting that files hold and the command line makes; transfer has at most
+/// kMaxBandCount.
+inline constexpr int kMaxLightingBandCount = 64;
+
 /// Distant lighting in the SH basis: L_i = ∫ L(ω) y_i(ω) dω for each of
 /// red, green, blue (C2, C3, C5).
 struct Lighting {

@@ -260,6 +260,21 @@ TEST_F(CliLight, AConventionRefusesMoreBandsThanItHas) {
     EXPECT_NE(result.errors.find("at most 3 bands"), std::string::npos) << result.errors;
 }
 
+TEST_F(CliLight, SixtyFourBandsAreReadBack) {
+    writeText(folder.path() / "many.json",
+              print({"sun:30,45,20", "--format", "json", "--bands", "64"}));
+    const Json many = coefficients({"many.json", "--bands", "64", "--rotate", "0,30,0"});
+    ASSERT_EQ(many.size(), 4096u);
+    // The azimuth runs against rotations about y. Of a disc of radiance 10 some terms of 1 remain.
+    expectNear(many, coefficients({"sun:0,45,20", "--bands", "64"}), 1e-9);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--window", "auto"}, {"--report", "page"}}) {
+        std::vector<std::string> command = {"light", "sun:30,45,20", "--bands", "64"};
+        command.insert(command.end(), words.begin(), words.end());
+        EXPECT_EQ(runPrt(folder, command).exitCode, 2) << words[0];
+    }
+}
+
 TEST_F(CliLight, AReportShowsTheLightItsBandsAndItsNumbers) {
     const std::string table =
         print({"sky:30,40", "--bands", "3", "--window", "hann", "--report", "page"});
