@@ -187,8 +187,7 @@ AccessorInfo attributeInfo(const CompressedLayer& layer, std::size_t vertexCount
 }
 
 std::size_t countAttributes(int bandCount, const CompressedLayer& layer) {
-    constexpr std::size_t kWidth = kCoefficientsPerAttribute;
-    return (coefficientsPerReceiver(bandCount, layer.channelCount) + kWidth - 1) / kWidth;
+    return CoefficientTable::countPanels(coefficientsPerReceiver(bandCount, layer.channelCount));
 }
 
 std::vector<AttributeRange> arrangeAttributes(const CompressedTransfer& transfer) {

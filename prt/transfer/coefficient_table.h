@@ -28,6 +28,9 @@ struct TableStorage {
 class CoefficientTable {
   public:
     static constexpr std::size_t kPanelWidth = 4;
+    static constexpr std::size_t countPanels(std::size_t columnCount) {
+        return (columnCount + kPanelWidth - 1) / kPanelWidth;
+    }
 
     CoefficientTable() = default;
     /// Zeros; they take no memory until they are written.
@@ -44,7 +47,7 @@ class CoefficientTable {
     std::size_t rowCount() const { return rowCount_; }
     std::size_t columnCount() const { return columnCount_; }
     std::size_t elementBytes() const { return elementBytes_; }
-    std::size_t panelCount() const { return (columnCount_ + kPanelWidth - 1) / kPanelWidth; }
+    std::size_t panelCount() const { return countPanels(columnCount_); }
     /// Of all numbers, without padding.
     std::size_t byteCount() const { return rowCount_ * columnCount_ * elementBytes_; }
     const TableStorage& storage() const { return storage_; }

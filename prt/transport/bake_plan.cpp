@@ -80,8 +80,8 @@ struct TransferBytes {
 TransferBytes countTransferBytes(const BakeOptions& options, std::size_t fronts,
                                  std::size_t receivers) {
     const auto tableBytes = [](std::size_t rows, std::size_t columns) {
-        constexpr std::size_t kWidth = CoefficientTable::kPanelWidth;
-        return rows * ((columns + kWidth - 1) / kWidth) * kWidth * sizeof(float);
+        return rows * CoefficientTable::countPanels(columns) * CoefficientTable::kPanelWidth *
+               sizeof(float);
     };
     const auto n = static_cast<std::size_t>(shCoefficientCount(options.bandCount));
     TransferBytes bytes;
