@@ -10,6 +10,7 @@
 
 #include "drawn_environment.h"
 #include "prt/base/random.h"
+#include "prt/light/analytic_lights.h"
 
 namespace prt {
 namespace {
@@ -163,6 +164,44 @@ TEST(ProjectLighting, WorksForThirtyTwoBands) {
     const auto environment =
         draw(kShapes[0], 128, [&](const Vec3d& d) { return Vec3f(reconstruct(truth, d)); });
     EXPECT_LT(maxDifference(projectLighting(environment, 32), truth), kAveraging);
+}
+
+TEST(AddDisc, IsTheDiscOfTheClosedFormInEveryMap) {
+    constexpr double kTexels = 7e-3;  // of the flux: texels of 2° to 4°
+    const Vec3d direction = Vec3d(1.0, 2.0, -2.0) / 3.0;
+    for (const SphereMap map : {SphereMap::latLong, SphereMap::angularMap, SphereMap::verticalCross,
+                                SphereMap::horizontalStrip, SphereMap::octahedral}) {
+        const auto [width, height] =
+            sphereMapSize(map, map == SphereMap::horizontalStrip ? 48 : 96);
+        for (const double halfAngle : {0.05, 0.7, 2.0, std::numbers::pi}) {
+            const double solidAngle = 2.0 * std::numbers::pi * (1.0 - std::cos(halfAngle));
+            Environment environment{map, Image(width, height)};
+            addDisc(environment, direction, halfAngle, Vec3d(1.0, 2.0, 4.0));
+            const Lighting drawn = projectLighting(environment, 5);
+            const Lighting truth =
+                discLighting(direction, halfAngle, Vec3d(1.0, 2.0, 4.0) / solidAngle, 5);
+            for (std::size_t i = 0; i < 25; ++i)
+                EXPECT_NEAR((drawn.coefficients[i] - truth.coefficients[i]).length(), 0.0,
+                            kTexels * 4.0)
+                    << sphereMapName(map) << " " << halfAngle << " " << i;
+        }
+    }
+}
+
+TEST(AddDisc, ALightOfNoExtentIsOneTexelWithAllItsFlux) {
+    Environment environment{SphereMap::latLong, Image(16, 8)};
+    addDisc(environment, Vec3d(0.0, 1.0, 0.0), 0.0, Vec3d(3.0));
+    int litCount = 0;
+    double flux = 0.0;
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const float radiance = environment.radiance.at(x, y).x;
+            litCount += radiance > 0.0f ? 1 : 0;
+            flux += static_cast<double>(radiance) *
+                    sphereTexel(SphereMap::latLong, 16, 8, x, y).solidAngle;
+        }
+    EXPECT_EQ(litCount, 1);
+    EXPECT_NEAR(flux, 3.0, 1e-6);
 }
 
 TEST(ReconstructLatLong, DrawsWhatTheCoefficientsStandFor) {
