@@ -5,38 +5,39 @@
 #include "apps/prt/relit_asset.h"
 #include "prt/base/error.h"
 #include "prt/light/deringing.h"
-#include "prt/relight/receiver_deringing.h"
 
 namespace prt::cli {
 namespace {
 
-std::vector<double> deringForAsset(const Lighting& lighting, const std::string& path) {
+std::vector<double> deringForFile(const Lighting& lighting, const std::string& path) {
     const Asset asset = readAsset(path);
     if (lighting.bandCount > asset.transfer.bandCount)
         throw Error(ErrorCode::invalidOption,
                     fmt::format("was baked in {} bands, the light has {}", asset.transfer.bandCount,
                                 lighting.bandCount),
                     path, fmt::format("add --bands {}", asset.transfer.bandCount));
-    return deringingFactors(Relighter(asset.transfer, fullestTransport(asset.transfer)), lighting);
+    return deringForAsset(asset, path, fullestTransport(asset.transfer), lighting);
 }
 
-std::vector<double> chooseFactors(const Lighting& lighting, const WindowArguments& arguments) {
-    if (arguments.window == "hann") return windowFactors(ShWindow::hann, lighting.bandCount);
-    if (arguments.window == "lanczos") return windowFactors(ShWindow::lanczos, lighting.bandCount);
-    if (arguments.nonNegative == "radiance") return deringingFactors(lighting);
-    if (arguments.nonNegative == "irradiance")
+/// The factors of --nonnegative.
+std::vector<double> deringFor(const std::string& nonNegative, const Lighting& lighting) {
+    if (nonNegative == "radiance") return deringingFactors(lighting);
+    if (nonNegative == "irradiance")
         return deringingFactors(lighting, {.nonNegative = NonNegative::irradiance});
-    return deringForAsset(lighting, arguments.nonNegative);
+    return deringForFile(lighting, nonNegative);
 }
 
 }  // namespace
 
-void addWindowOptions(CLI::App& command, WindowArguments& arguments) {
-    command
-        .add_option("--window", arguments.window, "lower ringing; auto: just as much as is needed")
+void addWindowOption(CLI::App& command, std::string& window, const std::string& help) {
+    command.add_option("--window", window, help)
         ->check(CLI::IsMember({"auto", "none", "hann", "lanczos"}).description(""))
         ->type_name("auto|none|hann|lanczos")
         ->capture_default_str();
+}
+
+void addWindowOptions(CLI::App& command, WindowArguments& arguments) {
+    addWindowOption(command, arguments.window, "lower ringing; auto: just as much as is needed");
     command
         .add_option("--nonnegative", arguments.nonNegative,
                     "what auto keeps so: the light, irradiance, what ASSET reflects")
@@ -49,12 +50,20 @@ std::string describeWindow(const WindowArguments& arguments) {
     return fmt::format("{} for {}", arguments.window, arguments.nonNegative);
 }
 
+Lighting lowerRinging(const Lighting& lighting, const std::string& window,
+                      const std::function<std::vector<double>()>& findLeast) {
+    if (window == "none") return lighting;
+    if (window == "auto") return applyWindow(lighting, findLeast());
+    const ShWindow known = window == "hann" ? ShWindow::hann : ShWindow::lanczos;
+    return applyWindow(lighting, windowFactors(known, lighting.bandCount));
+}
+
 Lighting lowerRinging(const Lighting& lighting, const WindowArguments& arguments) {
     if (arguments.window != "auto" && arguments.nonNegative != "radiance")
         throw Error(ErrorCode::invalidOption, "only means something with --window auto",
                     "--nonnegative");
-    if (arguments.window == "none") return lighting;
-    return applyWindow(lighting, chooseFactors(lighting, arguments));
+    return lowerRinging(lighting, arguments.window,
+                        [&] { return deringFor(arguments.nonNegative, lighting); });
 }
 
 }  // namespace prt::cli

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -14,11 +16,19 @@ struct WindowArguments {
     std::string nonNegative = "radiance";  ///< or "irradiance", or the path of an asset
 };
 
+/// Adds --window.
+void addWindowOption(CLI::App& command, std::string& window, const std::string& help);
+
 /// Adds --window and --nonnegative.
 void addWindowOptions(CLI::App& command, WindowArguments& arguments);
 
 /// The window and what it is for, in a few words.
 std::string describeWindow(const WindowArguments& arguments);
+
+/// @param window     as --window names it
+/// @param findLeast  the factors of "auto"
+Lighting lowerRinging(const Lighting& lighting, const std::string& window,
+                      const std::function<std::vector<double>()>& findLeast);
 
 /// @throws Error  as readAsset for the asset; invalidOption if it has fewer bands than the light
 Lighting lowerRinging(const Lighting& lighting, const WindowArguments& arguments);

@@ -7,7 +7,7 @@
 #include "prt/base/error.h"
 #include "prt/compress/compress_transfer.h"
 #include "prt/io/image_io.h"
-#include "prt/relight/relighter.h"
+#include "prt/relight/receiver_deringing.h"
 #include "prt/transport/unshadowed.h"
 
 namespace prt::cli {
@@ -53,6 +53,17 @@ std::vector<Vec3f> relightVertices(const Asset& asset, const std::string& path, 
     std::vector<Vec3f> radiance(relighter.receiverCount());
     relighter.relight(lighting, radiance);
     return radiance;
+}
+
+std::vector<double> deringForAsset(const Asset& asset, const std::string& path, Transport transport,
+                                   const Lighting& lighting) {
+    // Eight bits a coefficient make more noise than the library's tolerance, which is for sixteen.
+    constexpr double kToleranceOfEightBits = 1e-2;
+    const CompressedLayer* layer = asset.transfer.findLayer(transport);
+    ReceiverDeringingOptions options;
+    if (layer && layer->encoding == TransferEncoding::unorm8)
+        options.tolerance = kToleranceOfEightBits;
+    return deringingFactors(makeRelighter(asset, path, transport), lighting, options);
 }
 
 }  // namespace prt::cli

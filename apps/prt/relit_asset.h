@@ -26,4 +26,11 @@ Transport fullestTransport(const CompressedTransfer& transfer);
 std::vector<Vec3f> relightVertices(const Asset& asset, const std::string& path, Transport transport,
                                    const Lighting& lighting);
 
+/// The least smoothing of a light under which no vertex reflects negative light, one factor a band.
+///
+/// @param lighting  turned as it will be
+/// @throws Error    as relightVertices
+std::vector<double> deringForAsset(const Asset& asset, const std::string& path, Transport transport,
+                                   const Lighting& lighting);
+
 }  // namespace prt::cli

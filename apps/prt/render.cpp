@@ -9,6 +9,7 @@
 #include "apps/prt/commands.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/light_argument.h"
+#include "apps/prt/light_window.h"
 #include "apps/prt/limits.h"
 #include "apps/prt/picture.h"
 #include "apps/prt/relit_asset.h"
@@ -27,6 +28,7 @@ struct RenderArguments {
     ViewArguments view;
     std::optional<Transport> transport;
     Vec3d rotationDegrees{0.0, 0.0, 0.0};
+    std::string window = "none";
     DisplayOptions display;
     bool background = false;
     ReaderLimits limits;
@@ -39,8 +41,12 @@ Image renderPicture(const RenderArguments& arguments, const Asset& asset, const 
     const Mat3d rotation = rotationFromDegrees(arguments.rotationDegrees);
 
     const Stopwatch watch;
+    const Lighting turned = rotate(light.lighting, rotation);
+    const Lighting lighting = lowerRinging(turned, arguments.window, [&] {
+        return deringForAsset(asset, arguments.asset, transport, turned);
+    });
     const std::vector<Vec3f> vertexRadiance =
-        relightVertices(asset, arguments.asset, transport, rotate(light.lighting, rotation));
+        relightVertices(asset, arguments.asset, transport, lighting);
     log.finishStage(
         "relight", watch.seconds(),
         fmt::format("{}, {} bands", transportName(transport), light.lighting.bandCount));
@@ -105,6 +111,8 @@ void addRenderCommand(CLI::App& app) {
                     "unshadowed|shadowed|interreflected",
                     "how much of light transport to show [all there is]");
     addRotationOption(*command, arguments->rotationDegrees);
+    addWindowOption(*command, arguments->window,
+                    "lower ringing; auto: as little as leaves no negative reflection");
     addViewOptions(*command, arguments->view);
     const auto [exposure, tone] = addDisplayOptions(*command, arguments->display, " (.png)");
     command->add_flag("--background", arguments->background,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -95,6 +96,25 @@ TEST_F(BakedScene, ExrHoldsLinearRadiance) {
         EXPECT_LE(radiance.x, 1.0f + kRounding);
         EXPECT_GT(radiance.z, 0.0f);
     }
+}
+
+TEST_F(BakedScene, TheAutomaticWindowLeavesNoNegativePixel) {
+    const auto renderUnder = [&](const std::string& window) {
+        run({"render", "scene.prt.glb", "--light", "sun:270,10,1", "-o", "w.exr", "--size", "64x36",
+             "--window", window});
+        return readImage(file("w.exr"));
+    };
+    const auto findLowest = [](const Image& picture) {
+        float lowest = 0.0f;
+        for (const Vec3f& radiance : picture.pixels)
+            lowest = std::min({lowest, radiance.x, radiance.y, radiance.z});
+        return lowest;
+    };
+    const Image plain = renderUnder("none"), automatic = renderUnder("auto");
+    constexpr float kTolerance = 1e-3f * 0.08f;  // of the mean radiance of that sun, 1/4π
+    EXPECT_LT(findLowest(plain), -0.01f);
+    EXPECT_GE(findLowest(automatic), -kTolerance);
+    EXPECT_NE(automatic.pixels, renderUnder("hann").pixels);
 }
 
 TEST_F(BakedScene, TurningTheLightTurnsTheBackground) {
