@@ -1,6 +1,5 @@
 #include "apps/prt/bake_options.h"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "apps/prt/arguments.h"
+#include "apps/prt/compress_method.h"
 #include "prt/base/error.h"
 #include "prt/basis/sh.h"
 #include "prt/transport/bake_settings.h"
@@ -22,17 +22,6 @@ constexpr const char* kRefineErrorSetting = "refine-error";
 constexpr const char* kMinEdgeSetting = "min-edge";
 constexpr const char* kMaxVerticesSetting = "max-vertices";
 constexpr std::uint64_t kMaxVertexCount = 0xfffffffe;
-constexpr std::array<std::pair<std::string_view, TransferEncoding>, 3> kMethods = {{
-    {"float", TransferEncoding::float32},
-    {"u16", TransferEncoding::unorm16},
-    {"u8", TransferEncoding::unorm8},
-}};
-
-std::optional<TransferEncoding> parseMethod(std::string_view name) {
-    for (const auto& [method, encoding] : kMethods)
-        if (method == name) return encoding;
-    return std::nullopt;
-}
 
 std::optional<int> parseBounces(std::string_view text) {
     constexpr int kMaxBounceCount = 1000;
@@ -113,9 +102,7 @@ void addTransportOptions(CLI::App& command, BakeArguments& arguments) {
 
 void addRunOptions(CLI::App& command, BakeArguments& arguments) {
     BakeOptions& bake = arguments.bake;
-    addParsedOption(command, "--method", arguments.encoding, parseMethod, "float|u16|u8",
-                    "how a coefficient is stored: 4, 2 or 1 bytes")
-        ->default_str("float");
+    addMethodOption(command, arguments.encoding);
     addIntegerOption(command, "--threads", bake.threadCount, 0, 4096, "0 for one a core");
     command
         .add_option("--memory", bake.memoryBytes,
@@ -131,12 +118,6 @@ void addRunOptions(CLI::App& command, BakeArguments& arguments) {
     addPixelLimit(command, arguments.limits);
     command.add_option("--stats", arguments.stats, "write seconds, rays and memory as JSON")
         ->type_name("FILE.json");
-}
-
-std::string_view methodName(TransferEncoding encoding) {
-    for (const auto& [method, known] : kMethods)
-        if (known == encoding) return method;
-    return encodingName(encoding);
 }
 
 std::vector<Setting> callerSettings(const BakeArguments& arguments) {

@@ -40,9 +40,6 @@ void addTransportOptions(CLI::App& command, BakeArguments& arguments);
 /// Adds those that any bake of the same transport may choose anew: --method … --stats.
 void addRunOptions(CLI::App& command, BakeArguments& arguments);
 
-/// As --method takes it.
-std::string_view methodName(TransferEncoding encoding);
-
 /// What decides the bits of a bake beside the options of bakeTransfer. The
 /// edge length must have been chosen.
 std::vector<Setting> callerSettings(const BakeArguments& arguments);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "apps/prt/arguments.h"
+#include "apps/prt/compress_method.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/memory.h"
 #include "apps/prt/stage_log.h"

@@ -8,6 +8,7 @@ namespace prt::cli {
 /// that cannot do its work throws prt::Error, or CLI::ParseError for wrong usage.
 void addBakeCommand(CLI::App& app);
 void addMergeCommand(CLI::App& app);
+void addCompressCommand(CLI::App& app);
 void addLightCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);

@@ -70,6 +70,7 @@ int runCommand(int argumentCount, char** arguments) {
     prt::cli::addSceneCommand(app);
     prt::cli::addBakeCommand(app);
     prt::cli::addMergeCommand(app);
+    prt::cli::addCompressCommand(app);
     prt::cli::addLightCommand(app);
     prt::cli::addRenderCommand(app);
     prt::cli::addCompareCommand(app);

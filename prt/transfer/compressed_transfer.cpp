@@ -78,4 +78,15 @@ std::vector<float> expandLayer(const CompressedLayer& layer) {
     return copyRows<float>(layer.data);
 }
 
+TransferField expandTransfer(const CompressedTransfer& transfer) {
+    TransferField field;
+    field.bandCount = transfer.bandCount;
+    field.receiverCount = transfer.receiverCount;
+    field.receiverOfVertex = transfer.receiverOfVertex;
+    for (const CompressedLayer& layer : transfer.layers)
+        field.layers.push_back({layer.transport, layer.channelCount,
+                                makeTable(layer.data.columnCount(), expandLayer(layer))});
+    return field;
+}
+
 }  // namespace prt

@@ -48,4 +48,7 @@ bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer
 /// Decodes a layer to floats, [receiver][channel][coefficient].
 std::vector<float> expandLayer(const CompressedLayer& layer);
 
+/// Decodes all layers.
+TransferField expandTransfer(const CompressedTransfer& transfer);
+
 }  // namespace prt

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "prt/base/random.h"
+#include "prt/compress/compression_error.h"
 
 namespace prt {
 namespace {
@@ -137,6 +138,48 @@ TEST(CompressTransfer, AFieldWithoutReceiversIsEmpty) {
         const CompressedTransfer compressed = compressTransfer(field, {encoding});
         EXPECT_EQ(compressed.layers[0].data.rowCount(), 0u);
         EXPECT_TRUE(expandLayer(compressed.layers[0]).empty());
+    }
+}
+
+TEST(ExpandTransfer, FloatsComeBackAsTheyWere) {
+    const TransferField field = randomField();
+    const TransferField back =
+        expandTransfer(compressTransfer(field, {.encoding = TransferEncoding::float32}));
+    EXPECT_EQ(back.bandCount, field.bandCount);
+    EXPECT_EQ(back.receiverOfVertex, field.receiverOfVertex);
+    ASSERT_EQ(back.layers.size(), field.layers.size());
+    for (std::size_t i = 0; i < field.layers.size(); ++i) {
+        EXPECT_EQ(back.layers[i].transport, field.layers[i].transport);
+        EXPECT_EQ(back.layers[i].channelCount, field.layers[i].channelCount);
+        EXPECT_TRUE(back.layers[i].coefficients == field.layers[i].coefficients);
+    }
+}
+
+TEST(CompressionError, IsThatOfTheNumbersReadBack) {
+    const TransferField field = randomField();
+    const CompressedTransfer original =
+        compressTransfer(field, {.encoding = TransferEncoding::float32});
+    const CompressedTransfer bytes =
+        compressTransfer(field, {.encoding = TransferEncoding::unorm8});
+    for (std::size_t layer = 0; layer < field.layers.size(); ++layer) {
+        const std::vector<float> truth = copyRows<float>(field.layers[layer].coefficients);
+        const std::vector<float> stored = expandLayer(bytes.layers[layer]);
+        double squares = 0.0, truthSquares = 0.0, largest = 0.0;
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            squares += std::pow(double(stored[i]) - double(truth[i]), 2.0);
+            truthSquares += std::pow(double(truth[i]), 2.0);
+            largest = std::max(largest, std::abs(double(stored[i]) - double(truth[i])));
+        }
+        const CompressionError error =
+            measureCompressionError(bytes.layers[layer], original.layers[layer]);
+        EXPECT_NEAR(error.rmse, std::sqrt(squares / double(truth.size())), 1e-12);
+        EXPECT_NEAR(error.relativeRmse, std::sqrt(squares / truthSquares), 1e-12);
+        EXPECT_EQ(error.largest, largest);
+        EXPECT_GT(error.rmse, 0.0);
+        const CompressionError none =
+            measureCompressionError(original.layers[layer], original.layers[layer]);
+        EXPECT_EQ(none.rmse, 0.0);
+        EXPECT_EQ(none.largest, 0.0);
     }
 }
 
