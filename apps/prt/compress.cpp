@@ -56,10 +56,10 @@ void tellErrors(const CompressedTransfer& compressed, const CompressedTransfer& 
     for (const CompressedLayer& layer : compressed.layers) {
         const CompressedLayer& before = *original.findLayer(layer.transport);
         const CompressionError error = measureCompressionError(layer, before);
-        log.tell(
-            fmt::format("{}: {} a vertex instead of {}; error {} of the transfer, at most {:.2g}",
-                        transportName(layer.transport), formatCount(bytesPerVertex(layer), "byte"),
-                        bytesPerVertex(before), formatPercent(error.relativeRmse), error.largest));
+        log.tell(fmt::format(
+            "{}: {} a vertex instead of {}; error {:.2g} % of the transfer, at most {:.2g}",
+            transportName(layer.transport), formatCount(bytesPerVertex(layer), "byte"),
+            bytesPerVertex(before), 100.0 * error.relativeRmse, error.largest));
     }
 }
 
