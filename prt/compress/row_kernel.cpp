@@ -1,0 +1,196 @@
+#include "prt/compress/row_kernel.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "prt/compress/row_kernel.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace prt::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DoubleTag = hn::CappedTag<double, 8>;
+using Vector = hn::Vec<DoubleTag>;
+
+constexpr std::size_t kColumnCount = 8;
+constexpr std::size_t kVectorCount = kColumnCount / hn::MaxLanes(DoubleTag());
+// As many rows as leave the sums in registers.
+constexpr std::size_t kRowCount = kVectorCount == 1 ? 8 : kVectorCount == 2 ? 4 : 2;
+
+/// @param row  [paddedSize(dimension)], written
+HWY_INLINE void gatherRow(const WeightedVectors& vectors, std::uint32_t member, const double* shift,
+                          double* row) {
+    const DoubleTag d;
+    const hn::Rebind<float, DoubleTag> df;
+    const std::size_t dimension = vectors.dimension;
+    const float* numbers = vectors.numbers.data() + member * dimension;
+    const float* origin = vectors.origin.data();
+    const float* scale = vectors.scale.data();
+    std::size_t j = 0;
+    for (; j + hn::Lanes(d) <= dimension; j += hn::Lanes(d)) {
+        const Vector x = hn::PromoteTo(d, hn::LoadU(df, numbers + j));
+        const Vector c = hn::PromoteTo(d, hn::LoadU(df, origin + j));
+        const Vector s = hn::PromoteTo(d, hn::LoadU(df, scale + j));
+        hn::StoreU(hn::MulSub(hn::Sub(x, c), s, hn::LoadU(d, shift + j)), d, row + j);
+    }
+    for (; j < dimension; ++j)
+        row[j] = (double{numbers[j]} - double{origin[j]}) * double{scale[j]} - shift[j];
+    std::fill(row + dimension, row + paddedSize(dimension), 0.0);
+}
+
+/// Asks for a row that is needed soon: members lie far apart.
+HWY_INLINE void prefetchRow(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
+                            std::size_t i) {
+    constexpr std::size_t kLineFloats = 16, kMostFloats = 128;  // the machine sees to the rest
+    if (i >= members.size()) return;
+    const float* row = vectors.numbers.data() + members[i] * vectors.dimension;
+    for (std::size_t j = 0; j < std::min(kMostFloats, vectors.dimension); j += kLineFloats)
+        hwy::Prefetch(row + j);
+    hwy::Prefetch(row + vectors.dimension - 1);
+}
+
+constexpr std::size_t kRowsAhead = 24;
+
+void gatherRows(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
+                const double* shift, double* rows) {
+    for (std::size_t i = 0; i < members.size(); ++i, rows += paddedSize(vectors.dimension)) {
+        prefetchRow(vectors, members, i + kRowsAhead);
+        gatherRow(vectors, members[i], shift, rows);
+    }
+}
+
+/// One block of 8 columns by a few rows of the matrix.
+HWY_INLINE void addBlock(const double* rows, std::size_t rowCount, std::size_t size, std::size_t i,
+                         std::size_t column, double* matrix) {
+    const DoubleTag d;
+    const std::size_t lanes = hn::Lanes(d);
+    Vector sums[kRowCount][kVectorCount];
+    for (std::size_t r = 0; r < kRowCount; ++r) {
+        for (std::size_t v = 0; v < kVectorCount; ++v)
+            sums[r][v] = hn::LoadU(d, matrix + (i + r) * size + column + v * lanes);
+    }
+    for (std::size_t k = 0; k < rowCount; ++k, rows += size) {
+        Vector right[kVectorCount];
+        for (std::size_t v = 0; v < kVectorCount; ++v)
+            right[v] = hn::LoadU(d, rows + column + v * lanes);
+        for (std::size_t r = 0; r < kRowCount; ++r) {
+            const Vector left = hn::Set(d, rows[i + r]);
+            for (std::size_t v = 0; v < kVectorCount; ++v)
+                sums[r][v] = hn::MulAdd(left, right[v], sums[r][v]);
+        }
+    }
+    for (std::size_t r = 0; r < kRowCount; ++r) {
+        for (std::size_t v = 0; v < kVectorCount; ++v)
+            hn::StoreU(sums[r][v], d, matrix + (i + r) * size + column + v * lanes);
+    }
+}
+
+void addProducts(const double* rows, std::size_t rowCount, std::size_t size, double* matrix) {
+    for (std::size_t i = 0; i < size; i += kRowCount) {
+        for (std::size_t column = i / kColumnCount * kColumnCount; column < size;
+             column += kColumnCount)
+            addBlock(rows, rowCount, size, i, column, matrix);
+    }
+}
+
+HWY_INLINE double dotRows(const double* a, const double* b, std::size_t size) {
+    const DoubleTag d;
+    Vector sum = hn::Zero(d);
+    for (std::size_t j = 0; j < size; j += hn::Lanes(d))
+        sum = hn::MulAdd(hn::LoadU(d, a + j), hn::LoadU(d, b + j), sum);
+    return hn::GetLane(hn::SumOfLanes(d, sum));
+}
+
+void lowerDistances(const double* rows, std::span<const double> point,
+                    std::span<double> distances) {
+    const DoubleTag d;
+    for (double& distance : distances) {
+        Vector sum = hn::Zero(d);
+        for (std::size_t j = 0; j < point.size(); j += hn::Lanes(d)) {
+            const Vector offset = hn::Sub(hn::LoadU(d, rows + j), hn::LoadU(d, point.data() + j));
+            sum = hn::MulAdd(offset, offset, sum);
+        }
+        distance = std::min(distance, hn::GetLane(hn::SumOfLanes(d, sum)));
+        rows += point.size();
+    }
+}
+
+double projectRow(double* row, std::size_t size, const double* axes, std::span<float> weights) {
+    const DoubleTag d;
+    for (float& weight : weights) {
+        weight = static_cast<float>(dotRows(row, axes, size));
+        const Vector factor = hn::Set(d, double{weight});
+        for (std::size_t j = 0; j < size; j += hn::Lanes(d))
+            hn::StoreU(hn::NegMulAdd(factor, hn::LoadU(d, axes + j), hn::LoadU(d, row + j)), d,
+                       row + j);
+        axes += size;
+    }
+    return dotRows(row, row, size);
+}
+
+double sumRows(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
+               const double* shift, double* row, double* sum) {
+    const DoubleTag d;
+    const std::size_t size = paddedSize(vectors.dimension);
+    Vector squares = hn::Zero(d);
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        prefetchRow(vectors, members, i + kRowsAhead);
+        gatherRow(vectors, members[i], shift, row);
+        for (std::size_t j = 0; j < size; j += hn::Lanes(d)) {
+            const Vector y = hn::LoadU(d, row + j);
+            squares = hn::MulAdd(y, y, squares);
+            hn::StoreU(hn::Add(hn::LoadU(d, sum + j), y), d, sum + j);
+        }
+    }
+    return hn::GetLane(hn::SumOfLanes(d, squares));
+}
+
+}  // namespace
+}  // namespace prt::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace prt {
+
+HWY_EXPORT(gatherRows);
+HWY_EXPORT(sumRows);
+HWY_EXPORT(lowerDistances);
+HWY_EXPORT(addProducts);
+HWY_EXPORT(projectRow);
+
+void gatherRows(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
+                std::span<const double> shift, std::span<double> rows) {
+    HWY_DYNAMIC_DISPATCH(gatherRows)(vectors, members, shift.data(), rows.data());
+}
+
+double sumRows(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
+               std::span<const double> shift, std::span<double> sum) {
+    const std::size_t size = paddedSize(vectors.dimension);
+    std::vector<double> scratch(2 * size, 0.0);
+    const double squares = HWY_DYNAMIC_DISPATCH(sumRows)(vectors, members, shift.data(),
+                                                         scratch.data(), scratch.data() + size);
+    for (std::size_t j = 0; j < vectors.dimension; ++j)
+        sum[j] += scratch[size + j];
+    return squares;
+}
+
+void lowerDistances(std::span<const double> rows, std::span<const double> point,
+                    std::span<double> distances) {
+    HWY_DYNAMIC_DISPATCH(lowerDistances)(rows.data(), point, distances);
+}
+
+void addProducts(std::span<const double> rows, std::size_t size, std::span<double> matrix) {
+    HWY_DYNAMIC_DISPATCH(addProducts)(rows.data(), rows.size() / size, size, matrix.data());
+}
+
+double projectRow(std::span<double> row, std::span<const double> axes, std::span<float> weights) {
+    return HWY_DYNAMIC_DISPATCH(projectRow)(row.data(), row.size(), axes.data(), weights);
+}
+
+}  // namespace prt
+#endif  // HWY_ONCE

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "prt/compress/weighted_vectors.h"
+
+namespace prt {
+
+/// Rows of doubles are padded with zeros to a multiple of 8.
+constexpr std::size_t paddedSize(std::size_t size) {
+    return (size + 7) / 8 * 8;
+}
+
+/// Writes y − shift of some vectors. @param rows  [member][paddedSize(dimension)]
+void gatherRows(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
+                std::span<const double> shift, std::span<double> rows);
+
+/// Adds y − shift of some vectors to a sum, and returns Σ ‖y − shift‖².
+///
+/// @param sum  [dimension]
+double sumRows(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
+               std::span<const double> shift, std::span<double> sum);
+
+/// Lowers distances[i] to ‖row_i − point‖² where that is less.
+///
+/// @param rows   [row][size], size a multiple of 8
+/// @param point  [size]
+void lowerDistances(std::span<const double> rows, std::span<const double> point,
+                    std::span<double> distances);
+
+/// Adds AᵀA to a symmetric matrix; of each pair of entries that the symmetry makes equal, only the
+/// one right of the diagonal is sure to be written.
+///
+/// @param rows    A: [row][size], size a multiple of 8
+/// @param matrix  [size][size]
+void addProducts(std::span<const double> rows, std::size_t size, std::span<double> matrix);
+
+/// Takes from a row what each axis explains, one after another, and returns what is left of its
+/// squared length. The weights are rounded before they are used.
+///
+/// @param row      [size], size a multiple of 8; the rest is written
+/// @param axes     [axis][size]
+/// @param weights  one an axis, written
+double projectRow(std::span<double> row, std::span<const double> axes, std::span<float> weights);
+
+}  // namespace prt
