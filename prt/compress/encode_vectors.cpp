@@ -23,7 +23,7 @@ StoredNumbers unweighSubspace(const WeightedVectors& vectors, const Subspace& su
 double encodeVectors(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
                      const StoredSubspace& subspace, std::size_t weightStride,
                      std::span<float> weights, int threadCount) {
-    constexpr std::size_t kChunkSize = 4096;
+    constexpr std::size_t kChunkSize = 4096, kRowsAtOnce = 64;
     const std::size_t dimension = vectors.dimension;
     const std::size_t size = paddedSize(dimension);
     const std::size_t axisCount = subspace.components.size() / dimension;
@@ -38,14 +38,17 @@ double encodeVectors(const WeightedVectors& vectors, std::span<const std::uint32
     const double unit = std::sqrt(vectors.squaredErrorUnit);
     std::vector<double> errors((members.size() + kChunkSize - 1) / kChunkSize, 0.0);
     parallelFor(members.size(), {threadCount, kChunkSize}, [&](std::size_t begin, std::size_t end) {
-        std::vector<double> row(size);
+        std::vector<double> rows(kRowsAtOnce * size);
         double& error = errors[begin / kChunkSize];
-        for (const std::uint32_t member : members.subspan(begin, end - begin)) {
-            gatherRows(vectors, {&member, 1}, mean, row);
-            const auto own = weights.subspan(member * weightStride, axisCount);
-            error += projectRow(row, axes, own);
-            for (float& weight : own)
-                weight = static_cast<float>(weight * unit);
+        for (std::size_t i = begin; i < end; i += kRowsAtOnce) {
+            const auto batch = members.subspan(i, std::min(kRowsAtOnce, end - i));
+            gatherRows(vectors, batch, mean, rows);
+            for (std::size_t k = 0; k < batch.size(); ++k) {
+                const auto own = weights.subspan(batch[k] * weightStride, axisCount);
+                error += projectRow(std::span(rows).subspan(k * size, size), axes, own);
+                for (float& weight : own)
+                    weight = static_cast<float>(weight * unit);
+            }
         }
     });
     return vectors.squaredErrorUnit * std::accumulate(errors.begin(), errors.end(), 0.0);

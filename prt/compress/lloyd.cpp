@@ -78,40 +78,76 @@ std::vector<Subspace> seedCentroids(const WeightedVectors& vectors, const KMeans
     return seeds;
 }
 
-/// The mean of each cluster, and Σ ‖y − c‖² about the old centroids.
-struct Centroids {
-    std::vector<Subspace> means;
-    double squaredError = 0.0;
+/// Sums over the vectors of each cluster.
+struct ClusterSums {
+    std::vector<double> offsets;      ///< Σ (y − c), [cluster][paddedSize]
+    std::vector<std::size_t> counts;  ///< [cluster]
+    double squaredError = 0.0;        ///< Σ ‖y − c‖²
 };
 
-Centroids averageClusters(const WeightedVectors& vectors, const VectorGroups& groups,
-                          std::span<const Subspace> centroids, int threadCount) {
-    Centroids found{std::vector<Subspace>(centroids.begin(), centroids.end()), 0.0};
-    std::vector<double> errors(centroids.size(), 0.0);
-    parallelFor(centroids.size(), {threadCount, 1}, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            const auto members = groups.members(k);
-            std::vector<double> sum(vectors.dimension, 0.0);
-            errors[k] = sumRows(vectors, members, centroids[k].mean, sum);
-            for (std::size_t j = 0; j < sum.size() && !members.empty(); ++j)
-                found.means[k].mean[j] += sum[j] / static_cast<double>(members.size());
+/// Finds the nearest centroid of each vector, and sums while a batch is in the cache. In parts, of
+/// which there are few enough that each can have sums for itself, added in sequence.
+ClusterSums assignAndSum(const WeightedVectors& vectors, std::span<const std::uint32_t> indices,
+                         std::span<const Subspace> centroids, int threadCount,
+                         Assignment& assignment) {
+    constexpr std::size_t kLeastPart = 8192, kSumNumbers = std::size_t{1} << 24, kMostParts = 64;
+    constexpr std::size_t kBatchSize = 1024;
+    const std::size_t size = paddedSize(vectors.dimension);
+    std::vector<double> points(centroids.size() * size, 0.0);
+    for (std::size_t k = 0; k < centroids.size(); ++k)
+        std::copy(centroids[k].mean.begin(), centroids[k].mean.end(), &points[k * size]);
+    const SubspaceRows rows(centroids, allIndices(centroids.size()));
+    const std::size_t partCount =
+        std::clamp<std::size_t>(kSumNumbers / points.size(), 1, kMostParts);
+    const std::size_t partSize = std::max(kLeastPart, (indices.size() + partCount - 1) / partCount);
+    std::vector<ClusterSums> parts((indices.size() + partSize - 1) / partSize);
+    parallelFor(indices.size(), {threadCount, partSize}, [&](std::size_t begin, std::size_t end) {
+        ClusterSums& part = parts[begin / partSize];
+        part.offsets.assign(points.size(), 0.0);
+        part.counts.assign(centroids.size(), 0);
+        for (std::size_t i = begin; i < end; i += kBatchSize) {
+            const std::size_t count = std::min(kBatchSize, end - i);
+            const auto batch = indices.subspan(i, count);
+            const auto labels = std::span(assignment.labels).subspan(i, count);
+            const auto distances = std::span(assignment.squaredDistances).subspan(i, count);
+            findNearestSubspaces(vectors, batch, rows, false, {labels, distances});
+            part.squaredError += sumByLabel(vectors, batch, labels, points, part.offsets);
+            for (const std::uint32_t label : labels)
+                ++part.counts[label];
         }
     });
-    found.squaredError = std::accumulate(errors.begin(), errors.end(), 0.0);
-    return found;
+    ClusterSums total = std::move(parts.front());
+    for (std::size_t part = 1; part < parts.size(); ++part) {
+        total.squaredError += parts[part].squaredError;
+        for (std::size_t k = 0; k < centroids.size(); ++k)
+            total.counts[k] += parts[part].counts[k];
+        for (std::size_t i = 0; i < points.size(); ++i)
+            total.offsets[i] += parts[part].offsets[i];
+    }
+    return total;
 }
 
-/// Starts clusters without vectors anew at vectors that are far from their centroids.
-void reseedEmpty(const WeightedVectors& vectors, std::span<const std::uint32_t> indices,
-                 const VectorGroups& groups, const Assignment& assignment,
-                 std::vector<Subspace>& centroids) {
+/// Moves each centroid to the mean of its vectors; one that has none starts anew at a vector that
+/// is far from its own.
+std::vector<Subspace> moveCentroids(const WeightedVectors& vectors,
+                                    std::span<const std::uint32_t> indices,
+                                    const Assignment& assignment, const ClusterSums& sums,
+                                    std::vector<Subspace> centroids) {
+    const std::size_t size = paddedSize(vectors.dimension);
     std::vector<std::size_t> empty;
-    for (std::size_t k = 0; k < groups.groupCount(); ++k) {
-        if (groups.members(k).empty()) empty.push_back(k);
+    for (std::size_t k = 0; k < centroids.size(); ++k) {
+        if (sums.counts[k] == 0) {
+            empty.push_back(k);
+            continue;
+        }
+        for (std::size_t j = 0; j < vectors.dimension; ++j)
+            centroids[k].mean[j] +=
+                sums.offsets[k * size + j] / static_cast<double>(sums.counts[k]);
     }
     const auto farthest = findFarthest(assignment.squaredDistances, empty.size());
     for (std::size_t i = 0; i < farthest.size(); ++i)
         centroids[empty[i]] = {copyVector(vectors, indices[farthest[i]])};
+    return centroids;
 }
 
 }  // namespace
@@ -156,22 +192,21 @@ std::vector<Subspace> trainCentroids(const WeightedVectors& vectors, const KMean
                                      RandomStream(options.seed, 3));
     std::vector<Subspace> centroids = seedCentroids(vectors, options);
     std::vector<Subspace> best = centroids;
+    Assignment assignment{std::vector<std::uint32_t>(indices.size()),
+                          std::vector<float>(indices.size())};
     double leastError = std::numeric_limits<double>::infinity();
     ProgressReporter reporter(options.progress, "quantise", "iterations",
                               options.iterationCount + 1);
     for (std::size_t iteration = 0; iteration <= options.iterationCount; ++iteration) {
-        const Assignment assignment =
-            assignVectors(vectors, indices, centroids, options.threadCount);
-        const VectorGroups groups = groupByLabel(indices, assignment.labels, centroids.size());
-        Centroids next = averageClusters(vectors, groups, centroids, options.threadCount);
-        if (!(next.squaredError < leastError)) {
+        const ClusterSums sums =
+            assignAndSum(vectors, indices, centroids, options.threadCount, assignment);
+        if (!(sums.squaredError < leastError)) {
             reporter.advance(options.iterationCount + 1 - iteration);
             break;
         }
-        leastError = next.squaredError;
-        best = std::move(centroids);
-        centroids = std::move(next.means);
-        reseedEmpty(vectors, indices, groups, assignment, centroids);
+        leastError = sums.squaredError;
+        best = centroids;
+        centroids = moveCentroids(vectors, indices, assignment, sums, std::move(centroids));
         reporter.advance(1);
     }
     return best;

@@ -22,25 +22,49 @@ constexpr std::size_t kVectorCount = kColumnCount / hn::MaxLanes(DoubleTag());
 // As many rows as leave the sums in registers.
 constexpr std::size_t kRowCount = kVectorCount == 1 ? 8 : kVectorCount == 2 ? 4 : 2;
 
+/// The first numbers of a vector, and zeros: nothing behind them is read.
+template <class Tag, class Number>
+HWY_INLINE hn::Vec<Tag> loadFirst(Tag tag, const Number* numbers, std::size_t count) {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+    return hn::MaskedLoad(hn::FirstN(tag, count), tag, numbers);
+#else
+    HWY_ALIGN Number first[hn::MaxLanes(tag)] = {};
+    std::copy_n(numbers, count, first);
+    return hn::Load(tag, first);
+#endif
+}
+
 /// @param row  [paddedSize(dimension)], written
 HWY_INLINE void gatherRow(const WeightedVectors& vectors, std::uint32_t member, const double* shift,
                           double* row) {
     const DoubleTag d;
     const hn::Rebind<float, DoubleTag> df;
-    const std::size_t dimension = vectors.dimension;
-    const float* numbers = vectors.numbers.data() + member * dimension;
+    const float* numbers = vectors.numbers.data() + member * vectors.dimension;
     const float* origin = vectors.origin.data();
     const float* scale = vectors.scale.data();
-    std::size_t j = 0;
-    for (; j + hn::Lanes(d) <= dimension; j += hn::Lanes(d)) {
-        const Vector x = hn::PromoteTo(d, hn::LoadU(df, numbers + j));
-        const Vector c = hn::PromoteTo(d, hn::LoadU(df, origin + j));
-        const Vector s = hn::PromoteTo(d, hn::LoadU(df, scale + j));
-        hn::StoreU(hn::MulSub(hn::Sub(x, c), s, hn::LoadU(d, shift + j)), d, row + j);
+    std::size_t left = vectors.dimension;
+    for (; left >= hn::Lanes(d); left -= hn::Lanes(d)) {
+        const Vector x = hn::PromoteTo(d, hn::LoadU(df, numbers));
+        const Vector c = hn::PromoteTo(d, hn::LoadU(df, origin));
+        const Vector s = hn::PromoteTo(d, hn::LoadU(df, scale));
+        hn::StoreU(hn::MulSub(hn::Sub(x, c), s, hn::LoadU(d, shift)), d, row);
+        numbers += hn::Lanes(d);
+        origin += hn::Lanes(d);
+        scale += hn::Lanes(d);
+        shift += hn::Lanes(d);
+        row += hn::Lanes(d);
     }
-    for (; j < dimension; ++j)
-        row[j] = (double{numbers[j]} - double{origin[j]}) * double{scale[j]} - shift[j];
-    std::fill(row + dimension, row + paddedSize(dimension), 0.0);
+    // Whole vectors to the end: what is read next is loaded as it was stored.
+    const double* end = row + paddedSize(vectors.dimension) - (vectors.dimension - left);
+    if (left > 0) {
+        const Vector x = hn::PromoteTo(d, loadFirst(df, numbers, left));
+        const Vector c = hn::PromoteTo(d, loadFirst(df, origin, left));
+        const Vector s = hn::PromoteTo(d, loadFirst(df, scale, left));
+        hn::StoreU(hn::MulSub(hn::Sub(x, c), s, loadFirst(d, shift, left)), d, row);
+        row += hn::Lanes(d);
+    }
+    for (; row != end; row += hn::Lanes(d))
+        hn::StoreU(hn::Zero(d), d, row);
 }
 
 /// Asks for a row that is needed soon: members lie far apart.
@@ -133,14 +157,15 @@ double projectRow(double* row, std::size_t size, const double* axes, std::span<f
     return dotRows(row, row, size);
 }
 
-double sumRows(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
-               const double* shift, double* row, double* sum) {
+double sumByLabel(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
+                  std::span<const std::uint32_t> labels, const double* points, double* row,
+                  double* sums) {
     const DoubleTag d;
     const std::size_t size = paddedSize(vectors.dimension);
     Vector squares = hn::Zero(d);
     for (std::size_t i = 0; i < members.size(); ++i) {
-        prefetchRow(vectors, members, i + kRowsAhead);
-        gatherRow(vectors, members[i], shift, row);
+        double* sum = sums + labels[i] * size;
+        gatherRow(vectors, members[i], points + labels[i] * size, row);
         for (std::size_t j = 0; j < size; j += hn::Lanes(d)) {
             const Vector y = hn::LoadU(d, row + j);
             squares = hn::MulAdd(y, y, squares);
@@ -158,7 +183,7 @@ HWY_AFTER_NAMESPACE();
 namespace prt {
 
 HWY_EXPORT(gatherRows);
-HWY_EXPORT(sumRows);
+HWY_EXPORT(sumByLabel);
 HWY_EXPORT(lowerDistances);
 HWY_EXPORT(addProducts);
 HWY_EXPORT(projectRow);
@@ -168,15 +193,12 @@ void gatherRows(const WeightedVectors& vectors, std::span<const std::uint32_t> m
     HWY_DYNAMIC_DISPATCH(gatherRows)(vectors, members, shift.data(), rows.data());
 }
 
-double sumRows(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
-               std::span<const double> shift, std::span<double> sum) {
-    const std::size_t size = paddedSize(vectors.dimension);
-    std::vector<double> scratch(2 * size, 0.0);
-    const double squares = HWY_DYNAMIC_DISPATCH(sumRows)(vectors, members, shift.data(),
-                                                         scratch.data(), scratch.data() + size);
-    for (std::size_t j = 0; j < vectors.dimension; ++j)
-        sum[j] += scratch[size + j];
-    return squares;
+double sumByLabel(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
+                  std::span<const std::uint32_t> labels, std::span<const double> points,
+                  std::span<double> sums) {
+    std::vector<double> row(paddedSize(vectors.dimension));
+    return HWY_DYNAMIC_DISPATCH(sumByLabel)(vectors, members, labels, points.data(), row.data(),
+                                            sums.data());
 }
 
 void lowerDistances(std::span<const double> rows, std::span<const double> point,

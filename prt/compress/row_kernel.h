@@ -18,11 +18,14 @@ constexpr std::size_t paddedSize(std::size_t size) {
 void gatherRows(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
                 std::span<const double> shift, std::span<double> rows);
 
-/// Adds y − shift of some vectors to a sum, and returns Σ ‖y − shift‖².
+/// Adds each y − c to a sum of its label, c a point of the label, and returns Σ ‖y − c‖².
 ///
-/// @param sum  [dimension]
-double sumRows(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
-               std::span<const double> shift, std::span<double> sum);
+/// @param members  indices, as many as labels
+/// @param points   c: [label][paddedSize(dimension)]
+/// @param sums     the same; added to
+double sumByLabel(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
+                  std::span<const std::uint32_t> labels, std::span<const double> points,
+                  std::span<double> sums);
 
 /// Lowers distances[i] to ‖row_i − point‖² where that is less.
 ///

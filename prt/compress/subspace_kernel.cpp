@@ -134,6 +134,18 @@ HWY_INLINE void keepBetter(const Vector (&scores)[kVectorCount], std::int32_t po
     }
 }
 
+/// The same for six points; written out, so that the products stay in registers.
+HWY_INLINE void keepBest(const Vector (&products)[kRowCount][kVectorCount], std::int32_t first,
+                         Best& best) {
+    static_assert(kRowCount == 6);
+    keepBetter(products[0], first, best);
+    keepBetter(products[1], first + 1, best);
+    keepBetter(products[2], first + 2, best);
+    keepBetter(products[3], first + 3, best);
+    keepBetter(products[4], first + 4, best);
+    keepBetter(products[5], first + 5, best);
+}
+
 /// Adds up the rows of subspaces with axes, six after another.
 struct SubspaceSum {
     Vector scores[kVectorCount];
@@ -179,13 +191,13 @@ HWY_INLINE void scoreLanes(const SubspaceRows& rows, std::size_t firstLane, Tile
         multiplyRows(numbers, rows.constants.data() + first, tile.numbers.get() + firstLane,
                      rows.dimension, products);
         numbers += kRowCount * rows.dimension;
-        for (std::size_t r = 0; r < kRowCount; ++r) {
-            if constexpr (kArePoints) {
-                keepBetter(products[r], static_cast<std::int32_t>(first + r), best);
-            } else if (first + r < rows.rowCount) {
-                sum.addRow(products[r], rows.isFirst[first + r] != 0);
-                if (rows.isLast[first + r] != 0) sum.end(firstLane, tile, best);
-            }
+        if constexpr (kArePoints) {
+            keepBest(products, static_cast<std::int32_t>(first), best);
+            continue;
+        }
+        for (std::size_t r = 0; r < kRowCount && first + r < rows.rowCount; ++r) {
+            sum.addRow(products[r], rows.isFirst[first + r] != 0);
+            if (rows.isLast[first + r] != 0) sum.end(firstLane, tile, best);
         }
     }
     for (std::size_t v = 0; v < kVectorCount; ++v) {
