@@ -15,6 +15,42 @@
 namespace prt {
 namespace {
 
+/// A copy of vectors in the order of their clusters at some time: members of a cluster are then
+/// read one after another, which takes half the time of reading them from all over the memory.
+struct SortedVectors {
+    std::vector<float> numbers;
+    std::vector<std::uint32_t> original;  ///< where each was
+    WeightedVectors weighted;             ///< of the copy
+};
+
+/// @param original  all vectors, as they come
+/// @param sorted    written
+void sortVectors(const WeightedVectors& original, std::vector<std::uint32_t> order, int threadCount,
+                 SortedVectors& sorted) {
+    constexpr std::size_t kChunkSize = 16384;
+    const std::size_t dimension = original.dimension;
+    sorted.original = std::move(order);
+    sorted.numbers.resize(original.numbers.size());
+    parallelFor(original.count(), {threadCount, kChunkSize},
+                [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i)
+                        std::copy_n(&original.numbers[sorted.original[i] * dimension], dimension,
+                                    &sorted.numbers[i * dimension]);
+                });
+    sorted.weighted = original;
+    sorted.weighted.numbers = sorted.numbers;
+}
+
+/// Puts rows of numbers back to where the vectors were.
+template <class Number>
+std::vector<Number> restoreOrder(std::span<const Number> rows, std::size_t length,
+                                 std::span<const std::uint32_t> original) {
+    std::vector<Number> restored(rows.size());
+    for (std::size_t i = 0; i < original.size(); ++i)
+        std::copy_n(rows.data() + i * length, length, restored.data() + original[i] * length);
+    return restored;
+}
+
 /// Vectors in clusters, and the best subspace of each cluster.
 struct Clustering {
     std::vector<std::uint32_t> labels;
@@ -70,9 +106,58 @@ void fillEmptyClusters(Assignment& assignment, std::size_t clusterCount) {
         assignment.labels[farthest[i]] = empty[i];
 }
 
+/// Starts with the clusters of k-means.
+///
+/// @param sorted  written: the vectors in the order of these clusters
+Clustering startClusters(const WeightedVectors& vectors, std::size_t axisCount,
+                         const ClusteredPcaOptions& options, SortedVectors& sorted) {
+    constexpr std::size_t kTrainingPerCluster = 128;
+    const std::size_t clusterCount = std::min(options.clusterCount, vectors.count());
+    const std::vector<Subspace> centroids =
+        trainCentroids(vectors, {.clusterCount = clusterCount,
+                                 .iterationCount = 10,
+                                 .trainingCount = kTrainingPerCluster * clusterCount,
+                                 .seed = options.seed,
+                                 .threadCount = options.threadCount,
+                                 .progress = options.progress});
+    const std::vector<std::uint32_t> all = allIndices(vectors.count());
+    Assignment assignment = assignVectors(vectors, all, centroids, options.threadCount);
+    fillEmptyClusters(assignment, clusterCount);
+    VectorGroups groups = groupByLabel(all, assignment.labels, clusterCount);
+    sortVectors(vectors, std::move(groups.order), options.threadCount, sorted);
+    std::vector<std::uint32_t> labels;
+    for (const std::uint32_t vector : sorted.original)
+        labels.push_back(assignment.labels[vector]);
+    return fitClusters(sorted.weighted, std::move(labels), centroids, axisCount,
+                       options.threadCount);
+}
+
+/// Sorts the vectors by the clusters that they are in now.
+void sortAgain(const WeightedVectors& vectors, int threadCount, Clustering& clustering,
+               SortedVectors& sorted) {
+    std::vector<std::uint32_t> original, labels;
+    for (const std::uint32_t member : clustering.groups.order) {
+        original.push_back(sorted.original[member]);
+        labels.push_back(clustering.labels[member]);
+    }
+    sortVectors(vectors, std::move(original), threadCount, sorted);
+    clustering.labels = std::move(labels);
+    clustering.groups.order = allIndices(vectors.count());
+}
+
+std::size_t countDifferences(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        count += a[i] != b[i] ? 1 : 0;
+    return count;
+}
+
 /// Reassigns and fits in turns while the error falls.
+///
+/// @param sorted  sorted again when many vectors have moved
 Clustering iterate(const WeightedVectors& vectors, Clustering clustering, std::size_t axisCount,
-                   const ClusteredPcaOptions& options) {
+                   const ClusteredPcaOptions& options, SortedVectors& sorted) {
+    std::size_t movedCount = 0;
     constexpr std::size_t kSearchPeriod = 10;  // one search of so many is among all
     constexpr double kLeastNearGain = 0.002;   // of the error: less is not worth a near search
     ProgressReporter reporter(options.progress, "cluster", "iterations", options.iterationCount);
@@ -82,18 +167,23 @@ Clustering iterate(const WeightedVectors& vectors, Clustering clustering, std::s
                                  clustering.axes.size() <= kNearCount;
         const std::vector<Subspace> subspaces = listSubspaces(clustering);
         Assignment assignment =
-            reassignVectors(vectors, clustering.groups, subspaces,
+            reassignVectors(sorted.weighted, clustering.groups, subspaces,
                             searchesAll ? Search::all : Search::near, options.threadCount);
         fillEmptyClusters(assignment, subspaces.size());
-        Clustering next = fitClusters(vectors, std::move(assignment.labels), subspaces, axisCount,
-                                      options.threadCount);
+        Clustering next = fitClusters(sorted.weighted, std::move(assignment.labels), subspaces,
+                                      axisCount, options.threadCount);
         const double gain = clustering.squaredError - next.squaredError;
         nearHelps = searchesAll || gain > kLeastNearGain * clustering.squaredError;
         if (gain > 0.0) {
+            movedCount += countDifferences(next.labels, clustering.labels);
             clustering = std::move(next);
         } else if (searchesAll) {
             reporter.advance(options.iterationCount - iteration);
             break;
+        }
+        if (movedCount > vectors.count() / 3) {
+            sortAgain(vectors, options.threadCount, clustering, sorted);
+            movedCount = 0;
         }
         reporter.advance(1);
     }
@@ -135,28 +225,30 @@ std::vector<std::size_t> allotComponents(const Clustering& clustering, double ma
 }
 
 /// Stores the clusters that have vectors.
-ClusteredPca encode(const WeightedVectors& vectors, Clustering clustering,
+ClusteredPca encode(const SortedVectors& sorted, Clustering clustering,
                     std::span<const std::size_t> counts, int threadCount) {
+    const WeightedVectors& vectors = sorted.weighted;
     ClusteredPca pca;
     pca.dimension = vectors.dimension;
     pca.weightStride = *std::max_element(counts.begin(), counts.end());
     pca.firstComponent = {0};
-    pca.labels = std::move(clustering.labels);
-    pca.weights.assign(vectors.count() * pca.weightStride, 0.0f);
+    std::vector<float> weights(vectors.count() * pca.weightStride, 0.0f);
     for (std::size_t k = 0; k < counts.size(); ++k) {
         const auto members = clustering.groups.members(k);
         if (members.empty()) continue;
         const StoredNumbers stored =
             unweighSubspace(vectors, clustering.axes[k].subspace, counts[k]);
         pca.squaredError += encodeVectors(vectors, members, {stored.mean, stored.components},
-                                          pca.weightStride, pca.weights, threadCount);
+                                          pca.weightStride, weights, threadCount);
         for (const std::uint32_t member : members)
-            pca.labels[member] = static_cast<std::uint32_t>(pca.clusterCount());
+            clustering.labels[member] = static_cast<std::uint32_t>(pca.clusterCount());
         pca.means.insert(pca.means.end(), stored.mean.begin(), stored.mean.end());
         pca.components.insert(pca.components.end(), stored.components.begin(),
                               stored.components.end());
         pca.firstComponent.push_back(pca.components.size() / pca.dimension);
     }
+    pca.labels = restoreOrder<std::uint32_t>(clustering.labels, 1, sorted.original);
+    pca.weights = restoreOrder<float>(weights, pca.weightStride, sorted.original);
     return pca;
 }
 
@@ -164,42 +256,26 @@ ClusteredPca encode(const WeightedVectors& vectors, Clustering clustering,
 
 ClusteredPca computeClusteredPca(const VectorSet& vectors, const ClusteredPcaOptions& options) {
     PRT_ASSERT(options.clusterCount > 0, "there is a cluster");
-    constexpr std::size_t kTrainingPerCluster = 128;
-    const WeightedVectors weighted = weighVectors(vectors, options.threadCount);
-    const std::size_t clusterCount = std::min(options.clusterCount, vectors.count());
-    const std::vector<Subspace> centroids =
-        trainCentroids(weighted, {.clusterCount = clusterCount,
-                                  .iterationCount = 10,
-                                  .trainingCount = kTrainingPerCluster * clusterCount,
-                                  .seed = options.seed,
-                                  .threadCount = options.threadCount,
-                                  .progress = options.progress});
     const bool isBudgeted = options.averageComponentCount > 0.0;
+    const double averageCount =
+        isBudgeted ? options.averageComponentCount : static_cast<double>(options.componentCount);
     const std::size_t axisCount =
-        isBudgeted ? std::min(options.componentCount,
-                              static_cast<std::size_t>(std::lround(options.averageComponentCount)))
-                   : options.componentCount;
-    Assignment assignment =
-        assignVectors(weighted, allIndices(vectors.count()), centroids, options.threadCount);
-    fillEmptyClusters(assignment, centroids.size());
-    Clustering clustering = fitClusters(weighted, std::move(assignment.labels), centroids,
-                                        axisCount, options.threadCount);
-    clustering = iterate(weighted, std::move(clustering), axisCount, options);
+        std::min(options.componentCount, static_cast<std::size_t>(std::lround(averageCount)));
+    const WeightedVectors weighted = weighVectors(vectors, options.threadCount);
+    SortedVectors sorted;
+    Clustering clustering = startClusters(weighted, axisCount, options, sorted);
+    clustering = iterate(weighted, std::move(clustering), axisCount, options, sorted);
     if (axisCount < options.componentCount) {
         const std::vector<Subspace> subspaces = listSubspaces(clustering);
-        clustering = fitClusters(weighted, std::move(clustering.labels), subspaces,
+        clustering = fitClusters(sorted.weighted, std::move(clustering.labels), subspaces,
                                  options.componentCount, options.threadCount);
     }
-
-    const double vectorCount = static_cast<double>(vectors.count());
-    const double maxSquaredError = options.maxError * options.maxError * vectorCount *
-                                   static_cast<double>(vectors.dimension) /
-                                   weighted.squaredErrorUnit;
-    const double weightCount =
-        vectorCount *
-        (isBudgeted ? options.averageComponentCount : static_cast<double>(options.componentCount));
-    const auto counts = allotComponents(clustering, maxSquaredError, weightCount);
-    return encode(weighted, std::move(clustering), counts, options.threadCount);
+    const auto numberCount = static_cast<double>(vectors.numbers.size());
+    const double maxSquaredError =
+        options.maxError * options.maxError * numberCount / weighted.squaredErrorUnit;
+    const auto counts = allotComponents(clustering, maxSquaredError,
+                                        averageCount * static_cast<double>(vectors.count()));
+    return encode(sorted, std::move(clustering), counts, options.threadCount);
 }
 
 void expandVector(const ClusteredPca& pca, std::size_t vector, std::span<float> numbers) {

@@ -97,11 +97,9 @@ void addMoments(const WeightedVectors& vectors, std::span<const std::uint32_t> m
     for (std::size_t i = 0; i < members.size(); i += kRowsAtOnce) {
         const std::size_t count = std::min(kRowsAtOnce, members.size() - i);
         gatherRows(vectors, members.subspan(i, count), shift, rows);
-        addProducts(std::span(rows).first(count * size), size, moments.products);
-        for (std::size_t k = 0; k < count * size; k += size) {
-            for (std::size_t j = 0; j < size; ++j)
-                moments.sum[j] += rows[k + j];
-        }
+        const auto used = std::span(rows).first(count * size);
+        addRows(used, moments.sum);
+        addProducts(used, size, moments.products);
     }
 }
 

@@ -130,6 +130,16 @@ HWY_INLINE double dotRows(const double* a, const double* b, std::size_t size) {
     return hn::GetLane(hn::SumOfLanes(d, sum));
 }
 
+void addRows(std::span<const double> rows, std::span<double> sum) {
+    const DoubleTag d;
+    for (std::size_t j = 0; j < sum.size(); j += hn::Lanes(d)) {
+        Vector total = hn::LoadU(d, sum.data() + j);
+        for (std::size_t i = j; i < rows.size(); i += sum.size())
+            total = hn::Add(total, hn::LoadU(d, rows.data() + i));
+        hn::StoreU(total, d, sum.data() + j);
+    }
+}
+
 void lowerDistances(const double* rows, std::span<const double> point,
                     std::span<double> distances) {
     const DoubleTag d;
@@ -184,6 +194,7 @@ namespace prt {
 
 HWY_EXPORT(gatherRows);
 HWY_EXPORT(sumByLabel);
+HWY_EXPORT(addRows);
 HWY_EXPORT(lowerDistances);
 HWY_EXPORT(addProducts);
 HWY_EXPORT(projectRow);
@@ -199,6 +210,10 @@ double sumByLabel(const WeightedVectors& vectors, std::span<const std::uint32_t>
     std::vector<double> row(paddedSize(vectors.dimension));
     return HWY_DYNAMIC_DISPATCH(sumByLabel)(vectors, members, labels, points.data(), row.data(),
                                             sums.data());
+}
+
+void addRows(std::span<const double> rows, std::span<double> sum) {
+    HWY_DYNAMIC_DISPATCH(addRows)(rows, sum);
 }
 
 void lowerDistances(std::span<const double> rows, std::span<const double> point,

@@ -27,6 +27,9 @@ double sumByLabel(const WeightedVectors& vectors, std::span<const std::uint32_t>
                   std::span<const std::uint32_t> labels, std::span<const double> points,
                   std::span<double> sums);
 
+/// Adds rows to a sum. @param rows  [row][size], size a multiple of 8; @param sum  [size]
+void addRows(std::span<const double> rows, std::span<double> sum);
+
 /// Lowers distances[i] to ‖row_i − point‖² where that is less.
 ///
 /// @param rows   [row][size], size a multiple of 8
