@@ -224,6 +224,29 @@ std::vector<std::size_t> allotComponents(const Clustering& clustering, double ma
     return counts;
 }
 
+double sumErrors(const Clustering& clustering, std::span<const std::size_t> counts) {
+    double squaredError = 0.0;
+    for (std::size_t k = 0; k < counts.size(); ++k)
+        squaredError += clustering.axes[k].squaredError(counts[k]);
+    return squaredError;
+}
+
+/// Counts of components, adaptive where the options ask for it.
+std::vector<std::size_t> chooseCounts(const Clustering& clustering, double maxSquaredError,
+                                      double averageCount) {
+    const auto vectorCount = static_cast<double>(clustering.labels.size());
+    std::vector<std::size_t> counts =
+        allotComponents(clustering, maxSquaredError, averageCount * vectorCount);
+    // What is left of a limited number of weights may fit no component.
+    const std::vector<std::size_t> even(counts.size(), static_cast<std::size_t>(averageCount));
+    const double squaredError = sumErrors(clustering, counts);
+    if (squaredError > maxSquaredError && sumErrors(clustering, even) < squaredError) {
+        for (std::size_t k = 0; k < even.size(); ++k)
+            counts[k] = std::min(even[k], clustering.axes[k].squares.size());
+    }
+    return counts;
+}
+
 /// Stores the clusters that have vectors.
 ClusteredPca encode(const SortedVectors& sorted, Clustering clustering,
                     std::span<const std::size_t> counts, int threadCount) {
@@ -273,8 +296,7 @@ ClusteredPca computeClusteredPca(const VectorSet& vectors, const ClusteredPcaOpt
     const auto numberCount = static_cast<double>(vectors.numbers.size());
     const double maxSquaredError =
         options.maxError * options.maxError * numberCount / weighted.squaredErrorUnit;
-    const auto counts = allotComponents(clustering, maxSquaredError,
-                                        averageCount * static_cast<double>(vectors.count()));
+    const auto counts = chooseCounts(clustering, maxSquaredError, averageCount);
     return encode(sorted, std::move(clustering), counts, options.threadCount);
 }
 

@@ -292,6 +292,33 @@ TEST(ClusteredPca, ABudgetOfWeightsIsKeptAndBetterSpentThanEvenly) {
     EXPECT_LE(spent.squaredError, kFloatNoise * scatterOf(vectors));
 }
 
+TEST(ClusteredPca, ABudgetOfAsManyComponentsInEachClusterIsNoWorse) {
+    const std::vector<float> numbers = makeHardVectors(1000, 8);
+    const VectorSet vectors{numbers, 8};
+    for (const std::size_t iterationCount : {0, 1, 5}) {
+        const double even = computeClusteredPca(vectors, {.clusterCount = 20,
+                                                          .componentCount = 2,
+                                                          .iterationCount = iterationCount})
+                                .squaredError;
+        const double spent = computeClusteredPca(vectors, {.clusterCount = 20,
+                                                           .componentCount = 8,
+                                                           .averageComponentCount = 2.0,
+                                                           .iterationCount = iterationCount})
+                                 .squaredError;
+        EXPECT_LE(spent, even);
+    }
+}
+
+TEST(ClusteredPca, VectorsThatTheSeedsMissedGetTheEmptyClusters) {
+    std::vector<float> numbers(200000, 1.0f);
+    for (std::size_t i = 0; i < 7; ++i)
+        numbers[1000 + 20011 * i] = 10.0f + static_cast<float>(i * i);
+    const ClusteredPca pca = computeClusteredPca(
+        {numbers, 1}, {.clusterCount = 8, .componentCount = 0, .iterationCount = 0});
+    EXPECT_EQ(pca.clusterCount(), 8u);
+    EXPECT_EQ(pca.squaredError, 0.0);
+}
+
 TEST(ClusteredPca, OneVectorEqualVectorsAndFewerVectorsThanClusters) {
     const std::vector<float> few = makeClouds({.count = 7, .dimension = 4});
     const ClusteredPca seven = computeClusteredPca({few, 4}, {.clusterCount = 64});

@@ -167,6 +167,17 @@ TEST(KMeans, WeightsOfTheErrorActAsIfTheNumbersWereMultipliedByThem) {
                 kErrorTolerance * clusters.squaredError);
 }
 
+TEST(KMeans, TinyAndHugeNumbersGiveTheSameClusters) {
+    const std::vector<float> numbers = makeClouds({.count = 400, .dimension = 4, .noise = 1.0});
+    const KMeans clusters = computeKMeans({numbers, 4}, {.clusterCount = 9});
+    for (const float scale : {0x1p-90f, 0x1p+70f}) {
+        std::vector<float> scaled = numbers;
+        for (float& number : scaled)
+            number *= scale;
+        EXPECT_EQ(computeKMeans({scaled, 4}, {.clusterCount = 9}).labels, clusters.labels);
+    }
+}
+
 TEST(KMeans, APartOfTheVectorsIsEnoughToFindClouds) {
     const std::vector<float> numbers =
         makeClouds({.count = 20000, .dimension = 6, .cloudCount = 5, .spread = 100.0});

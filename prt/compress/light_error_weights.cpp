@@ -1,0 +1,41 @@
+#include "prt/compress/light_error_weights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "prt/base/assert.h"
+#include "prt/basis/sh.h"
+
+namespace prt {
+
+std::vector<float> lightErrorWeights(std::span<const Vec3d> light, int bandCount,
+                                     int channelCount) {
+    constexpr double kLeastShare = 1e-3;
+    PRT_ASSERT(bandCount >= 1 && (channelCount == 1 || channelCount == 3),
+               "there are bands, and one channel or three");
+    const auto coefficientCount = static_cast<std::size_t>(shCoefficientCount(bandCount));
+    std::vector<double> weights;
+    for (int channel = 0; channel < channelCount; ++channel) {
+        for (int l = 0; l < bandCount; ++l) {
+            double energy = 0.0;
+            for (int m = -l; m <= l; ++m) {
+                const auto i = static_cast<std::size_t>(shIndex(l, m));
+                if (i >= light.size()) continue;
+                energy += channelCount == 3 ? light[i][channel] * light[i][channel]
+                                            : light[i].dot(light[i]) / 3.0;
+            }
+            weights.insert(weights.end(), static_cast<std::size_t>(2 * l + 1),
+                           std::sqrt(energy / (2 * l + 1)));
+        }
+    }
+    PRT_ASSERT(weights.size() == coefficientCount * static_cast<std::size_t>(channelCount),
+               "every coefficient has a weight");
+    const double largest = *std::max_element(weights.begin(), weights.end());
+    PRT_ASSERT(largest > 0.0 && std::isfinite(largest), "there is light");
+    std::vector<float> rounded;
+    for (const double weight : weights)
+        rounded.push_back(static_cast<float>(std::max(weight, kLeastShare * largest)));
+    return rounded;
+}
+
+}  // namespace prt
