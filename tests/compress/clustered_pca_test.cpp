@@ -236,10 +236,11 @@ TEST(ClusteredPca, TheErrorNeverRisesWithComponents) {
 
 TEST(ClusteredPca, InTheEndEveryVectorIsInTheClusterThatReproducesItBest) {
     constexpr double kRounding = 3e-6;  // of a vector's squares: the search is in floats
-    const std::vector<float> numbers = makeHardVectors(1200, 6);
+    const std::vector<float> numbers =
+        makeClouds({.count = 5000, .dimension = 6, .cloudCount = 1, .subspaceDimension = 9});
     const VectorSet vectors{numbers, 6};
     const ClusteredPca pca = computeClusteredPca(
-        vectors, {.clusterCount = 30, .componentCount = 2, .iterationCount = 1000});
+        vectors, {.clusterCount = 40, .componentCount = 2, .iterationCount = 1000});
     for (std::size_t i = 0; i < vectors.count(); ++i) {
         double squares = 0.0;
         for (const float number : vectorOf(vectors, i))
@@ -293,9 +294,12 @@ TEST(ClusteredPca, ABudgetOfWeightsIsKeptAndBetterSpentThanEvenly) {
 }
 
 TEST(ClusteredPca, ABudgetOfAsManyComponentsInEachClusterIsNoWorse) {
-    const std::vector<float> numbers = makeHardVectors(1000, 8);
-    const VectorSet vectors{numbers, 8};
-    for (const std::size_t iterationCount : {0, 1, 5}) {
+    // One cloud without structure, where most vectors change their cluster, and others.
+    const std::vector<float> cloud =
+        makeClouds({.count = 1000, .dimension = 8, .cloudCount = 1, .subspaceDimension = 12});
+    const std::vector<float> others = makeHardVectors(1000, 8);
+    for (const std::size_t iterationCount : {0, 1, 2, 5, 6, 7}) {
+        const VectorSet vectors{iterationCount < 5 ? cloud : others, 8};
         const double even = computeClusteredPca(vectors, {.clusterCount = 20,
                                                           .componentCount = 2,
                                                           .iterationCount = iterationCount})
