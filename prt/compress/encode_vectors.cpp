@@ -45,7 +45,8 @@ double encodeVectors(const WeightedVectors& vectors, std::span<const std::uint32
             gatherRows(vectors, batch, mean, rows);
             for (std::size_t k = 0; k < batch.size(); ++k) {
                 const auto own = weights.subspan(batch[k] * weightStride, axisCount);
-                error += projectRow(std::span(rows).subspan(k * size, size), axes, own);
+                error +=
+                    projectRow(std::span<const double>(rows).subspan(k * size, size), axes, own);
                 for (float& weight : own)
                     weight = static_cast<float>(weight * unit);
             }

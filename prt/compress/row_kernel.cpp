@@ -154,17 +154,20 @@ void lowerDistances(const double* rows, std::span<const double> point,
     }
 }
 
-double projectRow(double* row, std::size_t size, const double* axes, std::span<float> weights) {
+double projectRow(const double* row, std::size_t size, const double* axes,
+                  std::span<float> weights) {
     const DoubleTag d;
-    for (float& weight : weights) {
-        weight = static_cast<float>(dotRows(row, axes, size));
-        const Vector factor = hn::Set(d, double{weight});
-        for (std::size_t j = 0; j < size; j += hn::Lanes(d))
-            hn::StoreU(hn::NegMulAdd(factor, hn::LoadU(d, axes + j), hn::LoadU(d, row + j)), d,
-                       row + j);
-        axes += size;
+    for (std::size_t p = 0; p < weights.size(); ++p)
+        weights[p] = static_cast<float>(dotRows(row, axes + p * size, size));
+    Vector squares = hn::Zero(d);
+    for (std::size_t j = 0; j < size; j += hn::Lanes(d)) {
+        Vector left = hn::LoadU(d, row + j);
+        for (std::size_t p = 0; p < weights.size(); ++p)
+            left = hn::NegMulAdd(hn::Set(d, double{weights[p]}), hn::LoadU(d, axes + p * size + j),
+                                 left);
+        squares = hn::MulAdd(left, left, squares);
     }
-    return dotRows(row, row, size);
+    return hn::GetLane(hn::SumOfLanes(d, squares));
 }
 
 double sumByLabel(const WeightedVectors& vectors, std::span<const std::uint32_t> members,
@@ -225,7 +228,8 @@ void addProducts(std::span<const double> rows, std::size_t size, std::span<doubl
     HWY_DYNAMIC_DISPATCH(addProducts)(rows.data(), rows.size() / size, size, matrix.data());
 }
 
-double projectRow(std::span<double> row, std::span<const double> axes, std::span<float> weights) {
+double projectRow(std::span<const double> row, std::span<const double> axes,
+                  std::span<float> weights) {
     return HWY_DYNAMIC_DISPATCH(projectRow)(row.data(), row.size(), axes.data(), weights);
 }
 

@@ -44,12 +44,13 @@ void lowerDistances(std::span<const double> rows, std::span<const double> point,
 /// @param matrix  [size][size]
 void addProducts(std::span<const double> rows, std::size_t size, std::span<double> matrix);
 
-/// Takes from a row what each axis explains, one after another, and returns what is left of its
-/// squared length. The weights are rounded before they are used.
+/// Finds the weights of a row on orthonormal axes, and returns the squared length of what these, as
+/// they are rounded, leave of it.
 ///
-/// @param row      [size], size a multiple of 8; the rest is written
+/// @param row      [size], size a multiple of 8
 /// @param axes     [axis][size]
 /// @param weights  one an axis, written
-double projectRow(std::span<double> row, std::span<const double> axes, std::span<float> weights);
+double projectRow(std::span<const double> row, std::span<const double> axes,
+                  std::span<float> weights);
 
 }  // namespace prt
