@@ -30,6 +30,13 @@ if(PRT_LIBFUZZER)
     target_compile_options(prt_build_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# Nor are the rotations instrumented, whose straight-line code over arrays of fixed size would take three minutes more.
+if(PRT_SANITIZE)
+    set_source_files_properties(
+        "${PROJECT_SOURCE_DIR}/prt/basis/sh_rotation_single.cpp" "${PROJECT_SOURCE_DIR}/prt/basis/sh_rotation_batch.cpp"
+        PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
+endif()
+
 set_property(GLOBAL PROPERTY PRT_MODULES "")
 
 # prt_module(<name> [PLAYER] [USES <module>...] [LIBRARIES <target>...])
