@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "apps/prt/arguments.h"
+#include "apps/prt/asset_output.h"
 #include "apps/prt/compress_method.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/memory.h"
@@ -37,13 +38,8 @@ struct StageSeconds {
 
 /// Checks all that can be checked before any work is done.
 void checkOutputs(const BakeArguments& arguments) {
-    requireSuffix(arguments.output, ".glb");
-    std::error_code ignored;
-    if (std::filesystem::equivalent(arguments.scene, arguments.output, ignored))
-        throw Error(ErrorCode::invalidOption, "would overwrite the scene it is baked from",
-                    arguments.output, "choose another name, such as scene.prt.glb");
+    checkAssetOutput(arguments.output, arguments.scene, "the scene it is baked from");
     const DeferInterrupts whileProbing;
-    checkWritable(arguments.output);
     if (!arguments.stats.empty()) checkWritable(arguments.stats);
 }
 

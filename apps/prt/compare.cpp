@@ -104,14 +104,13 @@ class AssetComparison {
     /// All but the lights.
     Report makeReport() const {
         const CompressedLayer* layer = asset_.transfer.findLayer(transport_);
-        const std::size_t receivers = std::max<std::size_t>(asset_.transfer.receiverCount, 1);
         return {.asset = arguments_.asset,
                 .command = arguments_.command,
                 .provenance = asset_.provenance,
                 .vertexCount = asset_.scene.vertexCount(),
                 .triangleCount = asset_.scene.triangleCount(),
                 .assetBytes = std::filesystem::file_size(arguments_.asset),
-                .bytesPerVertex = layer ? layer->data.byteCount() / receivers : 0,
+                .bytesPerVertex = layer ? bytesPerReceiver(*layer) : 0,
                 .transport = transport_,
                 .referenceSamples = referenceOptions_.samplesPerRay *
                                     referenceOptions_.view.samplesPerAxis *

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/prt/arguments.h"
+#include "apps/prt/asset_output.h"
 #include "apps/prt/commands.h"
 #include "apps/prt/compress_method.h"
 #include "apps/prt/interrupts.h"
@@ -14,7 +15,6 @@
 #include "apps/prt/text.h"
 #include "prt/asset/asset.h"
 #include "prt/base/error.h"
-#include "prt/base/file.h"
 #include "prt/compress/compress_transfer.h"
 #include "prt/compress/compression_error.h"
 
@@ -28,16 +28,6 @@ struct CompressArguments {
     std::optional<Transport> transport;
 };
 
-void checkOutput(const CompressArguments& arguments) {
-    requireSuffix(arguments.output, ".glb");
-    std::error_code ignored;
-    if (std::filesystem::equivalent(arguments.asset, arguments.output, ignored))
-        throw Error(ErrorCode::invalidOption, "would overwrite the asset it is made from",
-                    arguments.output, "choose another name");
-    const DeferInterrupts whileProbing;
-    checkWritable(arguments.output);
-}
-
 /// Keeps one layer only.
 void keepLayer(CompressedTransfer& transfer, Transport transport, const std::string& path) {
     if (!transfer.findLayer(transport))
@@ -47,10 +37,6 @@ void keepLayer(CompressedTransfer& transfer, Transport transport, const std::str
                   [&](const CompressedLayer& layer) { return layer.transport != transport; });
 }
 
-std::size_t bytesPerVertex(const CompressedLayer& layer) {
-    return layer.data.columnCount() * layer.data.elementBytes();
-}
-
 void tellErrors(const CompressedTransfer& compressed, const CompressedTransfer& original,
                 StageLog& log) {
     for (const CompressedLayer& layer : compressed.layers) {
@@ -58,13 +44,13 @@ void tellErrors(const CompressedTransfer& compressed, const CompressedTransfer& 
         const CompressionError error = measureCompressionError(layer, before);
         log.tell(fmt::format(
             "{}: {} a vertex instead of {}; error {:.2g} % of the transfer, at most {:.2g}",
-            transportName(layer.transport), formatCount(bytesPerVertex(layer), "byte"),
-            bytesPerVertex(before), 100.0 * error.relativeRmse, error.largest));
+            transportName(layer.transport), formatCount(bytesPerReceiver(layer), "byte"),
+            bytesPerReceiver(before), 100.0 * error.relativeRmse, error.largest));
     }
 }
 
 void runCompress(const CompressArguments& arguments) {
-    checkOutput(arguments);
+    checkAssetOutput(arguments.output, arguments.asset, "the asset it is made from");
     stopIfInterrupted();
     StageLog log;
     const Stopwatch load;

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -19,10 +18,6 @@ struct InfoArguments {
     std::string asset;
     bool json = false;
 };
-
-std::size_t bytesPerVertex(const CompressedTransfer& transfer, const CompressedLayer& layer) {
-    return layer.data.byteCount() / std::max<std::size_t>(transfer.receiverCount, 1);
-}
 
 void printRow(std::string_view name, const std::string& value) {
     fmt::print("{:<12} {}\n", name, value);
@@ -60,8 +55,8 @@ void printTransfer(const CompressedTransfer& transfer) {
                "bytes/vertex", "bytes");
     for (const CompressedLayer& layer : transfer.layers)
         fmt::print("{:<16} {:>8} {:>10} {:>14} {:>10}\n", transportName(layer.transport),
-                   layer.channelCount, encodingName(layer.encoding),
-                   bytesPerVertex(transfer, layer), formatBytes(layer.data.byteCount()));
+                   layer.channelCount, encodingName(layer.encoding), bytesPerReceiver(layer),
+                   formatBytes(layer.data.byteCount()));
 }
 
 void printTable(const std::string& path, const Asset& asset) {
@@ -77,7 +72,7 @@ nlohmann::ordered_json describeLayers(const CompressedTransfer& transfer) {
         layers.push_back({{"transport", transportName(layer.transport)},
                           {"channels", layer.channelCount},
                           {"encoding", encodingName(layer.encoding)},
-                          {"bytes_per_vertex", bytesPerVertex(transfer, layer)},
+                          {"bytes_per_vertex", bytesPerReceiver(layer)},
                           {"bytes", layer.data.byteCount()}});
     return layers;
 }

@@ -101,9 +101,8 @@ void checkArguments(const LightArguments& arguments) {
                    fmt::format("--convention {}", shConventionName(arguments.convention)));
     if (arguments.window.window == "auto")
         checkBandCount(arguments.bandCount, kMaxBandCount, "--window auto");
-    if (!arguments.report.empty())
-        checkBandCount(arguments.bandCount, kReportBandCount, "--report");
     if (!arguments.report.empty()) {
+        checkBandCount(arguments.bandCount, kReportBandCount, "--report");
         const DeferInterrupts whileProbing;
         StagedFolder::check(arguments.report);
     }

@@ -167,12 +167,9 @@ Environment drawLight(const LightSource& light, const Mat3d& rotation, SphereMap
 
     Environment drawn{map, Image(width, height)};
     if (light.sun) {
-        const auto [direction, halfAngle] = *light.sun;
-        // Of unit irradiance: ∫ L dω = 2π (1 − cos α) / (π sin² α), and 1 for a light of no extent.
-        const double sine = std::sin(std::min(halfAngle, 0.5 * std::numbers::pi));
-        const double flux =
-            halfAngle > 0.0 ? 4.0 * std::pow(std::sin(0.5 * halfAngle) / sine, 2.0) : 1.0;
-        addDisc(drawn, rotation * direction, halfAngle, Vec3d(flux));
+        // ∫ L dω = √4π L_00.
+        const Vec3d flux = light.lighting.coefficients[0] * (2.0 / std::numbers::inv_sqrtpi);
+        addDisc(drawn, rotation * light.sun->direction, light.sun->halfAngleRadians, flux);
         return drawn;
     }
     const Lighting turned = rotate(light.lighting, rotation);

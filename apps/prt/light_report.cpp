@@ -118,10 +118,10 @@ std::vector<RingingFinding> examineRinging(const Lighting& lighting) {
     return findings;
 }
 
-Environment makeCube(const Image& latLong) {
+WaveletLighting projectWaveletsOf(const Image& latLong) {
     constexpr int kFaceSize = 64;
-    return resample({SphereMap::latLong, latLong}, SphereMap::verticalStrip, kFaceSize,
-                    6 * kFaceSize);
+    return projectWavelets(resample({SphereMap::latLong, latLong}, SphereMap::verticalStrip,
+                                    kFaceSize, 6 * kFaceSize));
 }
 
 /// The light in its largest Haar wavelets, as lat-long; black where it would be negative.
@@ -190,6 +190,21 @@ Rgba8Image drawSigns(const Lighting& lighting) {
     return drawFalseColors(values, -scale, scale, signedColors());
 }
 
+LightFindings examineLight(const LightReport& report, const WaveletLighting& wavelets) {
+    LightFindings findings;
+    findings.meanRadiance = report.lighting.coefficients[0] * (0.5 * std::numbers::inv_sqrtpi);
+    for (const Vec3f& pixel : report.picture.pixels)
+        findings.largestLuminance = std::max(findings.largestLuminance, luminance(Vec3d(pixel)));
+    findings.exposureStops = chooseExposure(report.lighting);
+    findings.bands = examineBands(report);
+    findings.ringing = examineRinging(report.lighting);
+    findings.waveletErrors = selectionErrors(wavelets.coefficients, kPicturedWaveletCounts);
+    constexpr int kIrradianceBandCount = 5;
+    findings.irradiance = measureIrradianceErrors(report.lighting, kIrradianceBandCount);
+    findings.worstIrradiance = worstIrradianceErrors(kIrradianceBandCount);
+    return findings;
+}
+
 }  // namespace
 
 std::string bandsPicture(int bandCount) {
@@ -204,24 +219,9 @@ std::string bandsSphere(int bandCount) {
     return fmt::format("sphere-bands-{}", bandCount);
 }
 
-LightFindings examineLight(const LightReport& report) {
-    LightFindings findings;
-    findings.meanRadiance = report.lighting.coefficients[0] * (0.5 * std::numbers::inv_sqrtpi);
-    for (const Vec3f& pixel : report.picture.pixels)
-        findings.largestLuminance = std::max(findings.largestLuminance, luminance(Vec3d(pixel)));
-    findings.exposureStops = chooseExposure(report.lighting);
-    findings.bands = examineBands(report);
-    findings.ringing = examineRinging(report.lighting);
-    findings.waveletErrors = selectionErrors(projectWavelets(makeCube(report.picture)).coefficients,
-                                             kPicturedWaveletCounts);
-    constexpr int kIrradianceBandCount = 5;
-    findings.irradiance = measureIrradianceErrors(report.lighting, kIrradianceBandCount);
-    findings.worstIrradiance = worstIrradianceErrors(kIrradianceBandCount);
-    return findings;
-}
-
 void writeLightReport(const fs::path& folder, const LightReport& report) {
-    const LightFindings findings = examineLight(report);
+    const WaveletLighting wavelets = projectWaveletsOf(report.picture);
+    const LightFindings findings = examineLight(report, wavelets);
     const DisplayOptions display{.exposureStops = findings.exposureStops};
     const auto write = [&](const std::string& name, const Image& radiance) {
         writePng(folder / (name + ".png"), encodeForDisplay(radiance, display));
@@ -230,7 +230,6 @@ void writeLightReport(const fs::path& folder, const LightReport& report) {
     for (const int bandCount : kPicturedBandCounts)
         write(bandsPicture(bandCount),
               reconstructLatLong(truncate(report.lighting, bandCount), kPictureWidth));
-    const WaveletLighting wavelets = projectWavelets(makeCube(report.picture));
     for (const std::size_t count : kPicturedWaveletCounts)
         write(waveletsPicture(count), drawLargestWavelets(wavelets, count));
     write(kPrintedPicture, reconstructLatLong(report.printed, kPictureWidth));

@@ -52,8 +52,6 @@ struct LightFindings {
     std::vector<IrradianceError> worstIrradiance{};  ///< the same of one directional light
 };
 
-LightFindings examineLight(const LightReport& report);
-
 /// Writes index.html, lighting.json and the pictures into a folder. @throws Error writeFailed
 void writeLightReport(const std::filesystem::path& folder, const LightReport& report);
 

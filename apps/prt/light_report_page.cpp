@@ -9,6 +9,7 @@
 #include "apps/prt/light_report.h"
 #include "apps/prt/text.h"
 #include "prt/image/false_color.h"
+#include "prt/image/tone_curve.h"
 
 namespace prt::cli {
 namespace {
@@ -248,8 +249,7 @@ std::string formatCoefficients(const LightReport& report) {
 }
 
 std::string formatFacts(const LightReport& report, const LightFindings& findings) {
-    const double mean = 0.2126 * findings.meanRadiance.x + 0.7152 * findings.meanRadiance.y +
-                        0.0722 * findings.meanRadiance.z;
+    const double mean = luminance(findings.meanRadiance);
     return fmt::format(
         "<h2>The light</h2>\n<dl>\n<dt>mean radiance</dt><dd>{} W·sr⁻¹·m⁻²</dd>\n"
         "<dt>brightest texel</dt><dd>luminance {:.4g}, {:.4g} times the mean</dd>\n"

@@ -168,6 +168,19 @@ void evaluateShBatch(std::span<const float, kShBatchSize> x, std::span<const flo
     HWY_DYNAMIC_DISPATCH(evaluateBatch)(bandCount, x.data(), y.data(), z.data(), values.data());
 }
 
+void sumShBands(std::span<const double> coefficients, std::span<const double> basis,
+                std::span<double> bands) {
+    PRT_ASSERT(
+        coefficients.size() == bands.size() * bands.size() && basis.size() == coefficients.size(),
+        "n² coefficients and functions of n bands");
+    std::size_t i = 0;
+    for (std::size_t l = 0; l < bands.size(); ++l) {
+        bands[l] = 0.0;
+        for (; i < (l + 1) * (l + 1); ++i)
+            bands[l] += coefficients[i] * basis[i];
+    }
+}
+
 double reconstructSh(std::span<const double> coefficients, int bandCount, const Vec3d& direction) {
     std::vector<double> values(static_cast<std::size_t>(shCoefficientCount(bandCount)));
     evaluateSh(direction, bandCount, values);

@@ -54,6 +54,14 @@ void evaluateShBatch(std::span<const float, kShBatchSize> x, std::span<const flo
                      std::span<const float, kShBatchSize> z, int bandCount,
                      std::span<float> values);
 
+/// What each band of a function adds in one direction, Σ_m c_lm y_lm.
+///
+/// @param coefficients  n² numbers
+/// @param basis         n² basis functions, there
+/// @param bands         n numbers, written
+void sumShBands(std::span<const double> coefficients, std::span<const double> basis,
+                std::span<double> bands);
+
 /// The value of Σ_i c_i y_i in a direction.
 double reconstructSh(std::span<const double> coefficients, int bandCount, const Vec3d& direction);
 

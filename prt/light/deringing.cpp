@@ -39,20 +39,6 @@ DirectionGrid makeGrid(int bandCount) {
     return grid;
 }
 
-/// What each band of one function adds in one direction.
-///
-/// @param basis  n² basis functions, there
-/// @param bands  n numbers, written
-void sumBands(std::span<const double> coefficients, std::span<const double> basis,
-              std::span<double> bands) {
-    std::size_t i = 0;
-    for (std::size_t l = 0; l < bands.size(); ++l) {
-        bands[l] = 0.0;
-        for (; i < (l + 1) * (l + 1); ++i)
-            bands[l] += coefficients[i] * basis[i];
-    }
-}
-
 /// One channel of the lighting, and each of its bands over the grid.
 struct Channel {
     std::vector<double> coefficients;
@@ -79,7 +65,7 @@ std::vector<Channel> sampleChannels(const Lighting& lighting, const DirectionGri
     for (const Vec3d& direction : grid.directions) {
         evaluateSh(direction, lighting.bandCount, basis);
         for (Channel& channel : channels) {
-            sumBands(channel.coefficients, basis, bands);
+            sumShBands(channel.coefficients, basis, bands);
             for (std::size_t l = 0; l < bandCount; ++l)
                 channel.bandsOnGrid[l].push_back(bands[l]);
         }
@@ -216,7 +202,7 @@ double raiseLambda(const Channel& channel, const DirectionGrid& grid, double lam
         const Vec3d lowest = descend(smoothed, bandCount, grid.directions[k], grid.spacingRadians(),
                                      kPrecision * channel.tolerance);
         evaluateSh(lowest, bandCount, basis);
-        sumBands(channel.coefficients, basis, bands);
+        sumShBands(channel.coefficients, basis, bands);
         if (smoothAtPoint(bands, lambda) < -channel.tolerance)
             lambda = findLeastLambda(bands, lambda);
     }

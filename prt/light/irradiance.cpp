@@ -98,12 +98,7 @@ std::vector<IrradianceError> measureIrradianceErrors(const Lighting& lighting, i
     for (const SphereNode& node :
          sphereQuadrature(std::max(kLeastDegree, 2 * lighting.bandCount))) {
         evaluateSh(node.direction, lighting.bandCount, values);
-        std::size_t i = 0;
-        for (std::size_t l = 0; l < bands.size(); ++l) {
-            bands[l] = 0.0;
-            for (; i < (l + 1) * (l + 1); ++i)
-                bands[l] += coefficients[i] * values[i];
-        }
+        sumShBands(coefficients, values, bands);
         const double irradiance = std::accumulate(bands.begin(), bands.end(), 0.0);
         largestIrradiance = std::max(largestIrradiance, irradiance);
         accumulateErrors(bands, irradiance, 0.25 * std::numbers::inv_pi * node.weight, errors);

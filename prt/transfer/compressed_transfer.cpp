@@ -57,6 +57,10 @@ const CompressedLayer* CompressedTransfer::findLayer(Transport transport) const 
     return found == layers.end() ? nullptr : &*found;
 }
 
+std::size_t bytesPerReceiver(const CompressedLayer& layer) {
+    return layer.data.columnCount() * layer.data.elementBytes();
+}
+
 bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer) {
     return layer.data.rowCount() == transfer.receiverCount &&
            layer.data.columnCount() ==

@@ -42,6 +42,9 @@ struct CompressedTransfer {
     const CompressedLayer* findLayer(Transport transport) const;
 };
 
+/// What a layer stores for one receiver.
+std::size_t bytesPerReceiver(const CompressedLayer& layer);
+
 /// Whether a layer has all coefficients of all receivers, stored as it says.
 bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer);
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+namespace prt::cli {
+
+/// Checks that an asset can be written, so that long work does not fail at its end.
+///
+/// @param source       the file that it is made from, which must not be overwritten
+/// @param sourceWords  what that is: "the scene it is baked from"
+/// @throws Error       invalidOption for another suffix than .glb, or the source itself;
+/// writeFailed
+void checkAssetOutput(const std::string& output, const std::string& source,
+                      const std::string& sourceWords);
+
+}  // namespace prt::cli
