@@ -103,18 +103,18 @@ CompressedTransfer makeTransfer(TransferEncoding encoding, int bandCount, int ch
     transfer.receiverCount = kReceiverCount;
     CompressedLayer layer;
     layer.channelCount = channelCount;
-    layer.encoding = encoding;
+    layer.table.encoding = encoding;
     const std::size_t rowCount = coefficientsPerReceiver(bandCount, channelCount);
     if (encoding != TransferEncoding::float32) {
-        layer.scale.assign(rowCount, 1.5f);
-        layer.bias.assign(rowCount, -0.25f);
+        layer.table.scale.assign(rowCount, 1.5f);
+        layer.table.bias.assign(rowCount, -0.25f);
     }
     // A number of moderate size in every encoding.
     constexpr std::byte kPattern{0x3c};
-    layer.data = CoefficientTable(kReceiverCount, rowCount, bytesPerCoefficient(encoding));
-    const std::vector<std::byte> panel(layer.data.panel(0).size(), kPattern);
-    for (std::size_t i = 0; i < layer.data.panelCount(); ++i)
-        layer.data.writePanel(i, 0, panel);
+    layer.table.numbers = CoefficientTable(kReceiverCount, rowCount, bytesPerCoefficient(encoding));
+    const std::vector<std::byte> panel(layer.table.numbers.panel(0).size(), kPattern);
+    for (std::size_t i = 0; i < layer.table.numbers.panelCount(); ++i)
+        layer.table.numbers.writePanel(i, 0, panel);
     transfer.layers.push_back(std::move(layer));
     return transfer;
 }

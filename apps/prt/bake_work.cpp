@@ -103,7 +103,8 @@ std::uint64_t countTransferBytes(const Scene& scene, const BakeArguments& argume
     std::uint64_t vertexBytes = 0;
     for (const int channelCount : {1, 3}) {
         if (channelCount == 3 && arguments.bake.transport != Transport::interreflected) continue;
-        const CompressedLayer layer{.channelCount = channelCount, .encoding = arguments.encoding};
+        const CompressedLayer layer{.channelCount = channelCount,
+                                    .table = {.encoding = arguments.encoding}};
         vertexBytes += countAttributes(arguments.bake.bandCount, layer) *
                        kCoefficientsPerAttribute * bytesPerCoefficient(arguments.encoding);
     }
@@ -202,7 +203,7 @@ TransferField bakeScene(const Scene& scene, const BakeArguments& arguments, Bake
 std::size_t countBytesPerReceiver(const CompressedTransfer& transfer) {
     std::size_t bytes = 0;
     for (const CompressedLayer& layer : transfer.layers)
-        bytes += layer.data.byteCount();
+        bytes += layer.table.numbers.byteCount();
     return bytes / transfer.receiverCount;
 }
 

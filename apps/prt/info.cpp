@@ -55,8 +55,8 @@ void printTransfer(const CompressedTransfer& transfer) {
                "bytes/vertex", "bytes");
     for (const CompressedLayer& layer : transfer.layers)
         fmt::print("{:<16} {:>8} {:>10} {:>14} {:>10}\n", transportName(layer.transport),
-                   layer.channelCount, encodingName(layer.encoding), bytesPerReceiver(layer),
-                   formatBytes(layer.data.byteCount()));
+                   layer.channelCount, encodingName(layer.table.encoding), bytesPerReceiver(layer),
+                   formatBytes(layer.table.numbers.byteCount()));
 }
 
 void printTable(const std::string& path, const Asset& asset) {
@@ -71,9 +71,9 @@ nlohmann::ordered_json describeLayers(const CompressedTransfer& transfer) {
     for (const CompressedLayer& layer : transfer.layers)
         layers.push_back({{"transport", transportName(layer.transport)},
                           {"channels", layer.channelCount},
-                          {"encoding", encodingName(layer.encoding)},
+                          {"encoding", encodingName(layer.table.encoding)},
                           {"bytes_per_vertex", bytesPerReceiver(layer)},
-                          {"bytes", layer.data.byteCount()}});
+                          {"bytes", layer.table.numbers.byteCount()}});
     return layers;
 }
 

@@ -61,7 +61,7 @@ std::vector<double> deringForAsset(const Asset& asset, const std::string& path, 
     constexpr double kToleranceOfEightBits = 1e-2;
     const CompressedLayer* layer = asset.transfer.findLayer(transport);
     ReceiverDeringingOptions options;
-    if (layer && layer->encoding == TransferEncoding::unorm8)
+    if (layer && layer->table.encoding == TransferEncoding::unorm8)
         options.tolerance = kToleranceOfEightBits;
     return deringingFactors(makeRelighter(asset, path, transport), lighting, options);
 }

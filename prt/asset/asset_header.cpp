@@ -30,11 +30,11 @@ std::string formatVersion() {
 std::string computeLayerChecksum(int bandCount, const CompressedLayer& layer,
                                  const AttributeRange& range) {
     std::string bytes = std::string(transportName(layer.transport)) + " " +
-                        std::string(encodingName(layer.encoding));
+                        std::string(encodingName(layer.table.encoding));
     for (const std::size_t number : {static_cast<std::size_t>(layer.channelCount),
                                      static_cast<std::size_t>(bandCount), range.first, range.count})
         bytes += " " + std::to_string(number);
-    for (const std::vector<float>* numbers : {&layer.scale, &layer.bias})
+    for (const std::vector<float>* numbers : {&layer.table.scale, &layer.table.bias})
         bytes.append(reinterpret_cast<const char*>(numbers->data()),
                      numbers->size() * sizeof(float));
     return formatChecksum(computeCrc32(std::as_bytes(std::span(bytes))));
@@ -45,11 +45,11 @@ nlohmann::ordered_json describeLayer(int bandCount, const CompressedLayer& layer
     nlohmann::ordered_json object;
     object["transport"] = transportName(layer.transport);
     object["channels"] = layer.channelCount;
-    object["encoding"] = encodingName(layer.encoding);
+    object["encoding"] = encodingName(layer.table.encoding);
     object["attributes"] = {{"first", range.first}, {"count", range.count}};
-    if (layer.encoding != TransferEncoding::float32) {
-        object["scale"] = layer.scale;
-        object["bias"] = layer.bias;
+    if (layer.table.encoding != TransferEncoding::float32) {
+        object["scale"] = layer.table.scale;
+        object["bias"] = layer.table.bias;
     }
     object["checksum"] = computeLayerChecksum(bandCount, layer, range);
     return object;
@@ -96,10 +96,10 @@ std::vector<float> parseCoefficients(const JsonCursor& list, std::size_t count) 
 }
 
 void parseRanges(const JsonCursor& object, std::size_t count, CompressedLayer& layer) {
-    layer.scale = parseCoefficients(object.at("scale"), count);
-    layer.bias = parseCoefficients(object.at("bias"), count);
+    layer.table.scale = parseCoefficients(object.at("scale"), count);
+    layer.table.bias = parseCoefficients(object.at("bias"), count);
     for (std::size_t i = 0; i < count; ++i)
-        if (layer.scale[i] < 0.0f) object.at("scale")[i].reject("is negative");
+        if (layer.table.scale[i] < 0.0f) object.at("scale")[i].reject("is negative");
 }
 
 /// One member of the header's list of layers; passed over if a newer minor
@@ -113,11 +113,11 @@ void parseLayer(const JsonCursor& object, bool isNewer, AssetHeader& header) {
 
     CompressedLayer layer;
     layer.transport = *transport;
-    layer.encoding = *encoding;
+    layer.table.encoding = *encoding;
     layer.channelCount = parseCount(object.at("channels"));
     if (layer.channelCount != 1 && layer.channelCount != 3)
         object.at("channels").reject("must be 1 or 3");
-    if (layer.encoding != TransferEncoding::float32)
+    if (layer.table.encoding != TransferEncoding::float32)
         parseRanges(object, coefficientsPerReceiver(header.bandCount, layer.channelCount), layer);
 
     const JsonCursor attributes = object.at("attributes");
@@ -180,9 +180,9 @@ std::string attributeSemantic(std::size_t index) {
 
 AccessorInfo attributeInfo(const CompressedLayer& layer, std::size_t vertexCount) {
     AccessorInfo info{vertexCount, static_cast<int>(kCoefficientsPerAttribute)};
-    if (layer.encoding == TransferEncoding::unorm16) info.type = ComponentType::uint16;
-    if (layer.encoding == TransferEncoding::unorm8) info.type = ComponentType::uint8;
-    info.normalized = layer.encoding != TransferEncoding::float32;
+    if (layer.table.encoding == TransferEncoding::unorm16) info.type = ComponentType::uint16;
+    if (layer.table.encoding == TransferEncoding::unorm8) info.type = ComponentType::uint8;
+    info.normalized = layer.table.encoding != TransferEncoding::float32;
     return info;
 }
 

@@ -122,9 +122,9 @@ void checkPadding(const CoefficientTable& data) {
 /// Demands that floats are finite and of a size that transfer can have;
 /// quantised ones are so by their ranges.
 void checkCoefficients(const CompressedLayer& layer) {
-    if (layer.encoding != TransferEncoding::float32) return;
-    for (std::size_t part = 0; part < layer.data.panelCount(); ++part)
-        for (const float value : floatPanel(layer.data, part))
+    if (layer.table.encoding != TransferEncoding::float32) return;
+    for (std::size_t part = 0; part < layer.table.numbers.panelCount(); ++part)
+        for (const float value : floatPanel(layer.table.numbers, part))
             if (!(std::abs(value) <= kMaxCoefficient))
                 reject("holds a coefficient beyond ±" +
                        std::to_string(static_cast<int>(kMaxCoefficient)));
@@ -135,8 +135,8 @@ void readRows(const BoundAttributes& attributes, const AttributeRange& range,
               std::size_t firstVertex, std::size_t vertexCount, CompressedLayer& layer) {
     const AccessorInfo info = attributeInfo(layer, vertexCount);
     for (std::size_t part = 0; part < range.count; ++part)
-        layer.data.writePanel(part, firstVertex,
-                              attributes.read(attributeSemantic(range.first + part), info));
+        layer.table.numbers.writePanel(
+            part, firstVertex, attributes.read(attributeSemantic(range.first + part), info));
 }
 
 /// Makes room for all layers, no more than the file has bytes for.
@@ -145,13 +145,13 @@ void allocateLayers(const GltfDocument& document, CompressedTransfer& transfer) 
     for (std::size_t view = 0; view < document.bufferViewCount(); ++view)
         bytesLeft += document.bufferViewBytes(view).size();
     for (CompressedLayer& layer : transfer.layers) {
-        const std::size_t coefficientBytes = bytesPerCoefficient(layer.encoding);
+        const std::size_t coefficientBytes = bytesPerCoefficient(layer.table.encoding);
         const std::size_t vertexBytes = countAttributes(transfer.bandCount, layer) *
                                         kCoefficientsPerAttribute * coefficientBytes;
         if (transfer.receiverCount > bytesLeft / vertexBytes)
             reject("has more vertices than coefficients");
         bytesLeft -= transfer.receiverCount * vertexBytes;
-        layer.data = CoefficientTable(
+        layer.table.numbers = CoefficientTable(
             transfer.receiverCount, coefficientsPerReceiver(transfer.bandCount, layer.channelCount),
             coefficientBytes);
     }
@@ -177,7 +177,7 @@ CompressedTransfer readTransfer(const GltfDocument& document, const FlattenedGlt
                      transfer.layers[i]);
     }
     for (const CompressedLayer& layer : transfer.layers) {
-        checkPadding(layer.data);
+        checkPadding(layer.table.numbers);
         checkCoefficients(layer);
     }
     return transfer;

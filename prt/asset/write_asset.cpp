@@ -31,7 +31,7 @@ std::vector<GlbAttribute> makeAttributes(const CompressedTransfer& transfer, Rec
         const AccessorInfo info = attributeInfo(layer, receivers.size());
         for (std::size_t part = 0; part < countAttributes(transfer.bandCount, layer); ++part) {
             const auto write = [&layer, part, receivers](std::span<std::byte> values) {
-                copyAttribute(layer.data, part, receivers, values);
+                copyAttribute(layer.table.numbers, part, receivers, values);
             };
             attributes.push_back({attributeSemantic(attributes.size()), info, write});
         }

@@ -39,13 +39,13 @@ struct StoredRange {
 /// One a channel and coefficient, in the layer's order.
 std::vector<StoredRange> storedRanges(const CompressedLayer& layer, std::size_t rowCount) {
     std::vector<StoredRange> ranges(rowCount);
-    if (layer.encoding == TransferEncoding::float32) return ranges;
-    PRT_ASSERT(layer.scale.size() == rowCount && layer.bias.size() == rowCount,
+    if (layer.table.encoding == TransferEncoding::float32) return ranges;
+    PRT_ASSERT(layer.table.scale.size() == rowCount && layer.table.bias.size() == rowCount,
                "a scale and a bias for each channel and coefficient");
-    const double largest = layer.encoding == TransferEncoding::unorm16 ? 65535.0 : 255.0;
+    const double largest = largestStored(layer.table.encoding);
     for (std::size_t row = 0; row < rowCount; ++row)
-        ranges[row] = {static_cast<double>(layer.scale[row]) / largest,
-                       static_cast<double>(layer.bias[row])};
+        ranges[row] = {static_cast<double>(layer.table.scale[row]) / largest,
+                       static_cast<double>(layer.table.bias[row])};
     return ranges;
 }
 
@@ -56,7 +56,7 @@ void packBlocks(const CompressedLayer& layer, const TransferBlocks& shape,
     const std::size_t rowCount = shape.channelCount * shape.coefficientCount;
     std::vector<Stored> receiver(rowCount);
     for (std::size_t r = 0; r < receiverCount; ++r) {
-        layer.data.readRow(r, std::span(receiver));
+        layer.table.numbers.readRow(r, std::span(receiver));
         Stored* const lane =
             blocks + r / kRelightBlockSize * rowCount * kRelightBlockSize + r % kRelightBlockSize;
         for (std::size_t channel = 0; channel < shape.channelCount; ++channel) {
@@ -79,11 +79,11 @@ struct Relighter::Blocks {
 
     Blocks(const CompressedTransfer& transfer, const CompressedLayer& layer)
         : bandCount(transfer.bandCount), receiverCount(transfer.receiverCount) {
-        view.encoding = layer.encoding;
+        view.encoding = layer.table.encoding;
         view.channelCount = static_cast<std::size_t>(layer.channelCount);
         view.coefficientCount = static_cast<std::size_t>(shCoefficientCount(bandCount));
         const std::size_t rowCount = coefficientsPerReceiver(bandCount, layer.channelCount);
-        const std::size_t rowBytes = bytesPerCoefficient(layer.encoding);
+        const std::size_t rowBytes = bytesPerCoefficient(layer.table.encoding);
         PRT_ASSERT(bandCount >= 1 && bandCount <= kMaxBandCount, "a band count of the kernels");
         PRT_ASSERT(layer.channelCount == 1 || layer.channelCount == 3, "grey or coloured transfer");
         PRT_ASSERT(isComplete(transfer, layer), "a vector a receiver");
@@ -105,7 +105,7 @@ struct Relighter::Blocks {
 
     void pack(const CompressedLayer& layer) {
         const auto packAs = [&](auto* blocks) { packBlocks(layer, view, receiverCount, blocks); };
-        switch (layer.encoding) {
+        switch (layer.table.encoding) {
             case TransferEncoding::float32:
                 return packAs(reinterpret_cast<float*>(bytes.get()));
             case TransferEncoding::unorm16:

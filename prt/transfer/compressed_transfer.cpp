@@ -1,34 +1,68 @@
+// Bibliography
+//   [Sloan03]  Clustered principal components for precomputed radiance transfer
 #include "prt/transfer/compressed_transfer.h"
 
 #include <algorithm>
-#include <array>
-#include <span>
 
 #include "prt/base/assert.h"
 
 namespace prt {
 namespace {
 
-/// In the order of the enumeration.
-constexpr std::array<std::string_view, 3> kEncodingNames = {"float32", "unorm16", "unorm8"};
-constexpr std::array<std::size_t, 3> kEncodingBytes = {4, 2, 1};
+constexpr std::size_t kRowsAtOnce = 4096;
 
-/// Decodes the integers of every receiver; in double, so that each result is the
-/// float nearest to what is meant.
-template <class Integer>
-std::vector<float> expandIntegers(const CompressedLayer& layer, double maxInteger) {
-    const std::size_t rowLength = layer.data.columnCount();
-    PRT_ASSERT(layer.scale.size() == rowLength && layer.bias.size() == rowLength,
-               "each channel and coefficient has a scale and a bias");
+/// The first column of rows is the cluster, as it is: the integers, or a float that is one.
+template <class Stored>
+void readFirstColumn(const CoefficientTable& numbers, std::size_t firstRow,
+                     std::span<std::uint32_t> clusters) {
+    constexpr std::size_t kWidth = CoefficientTable::kPanelWidth;
+    const auto* panel = reinterpret_cast<const Stored*>(numbers.panel(0).data());
+    for (std::size_t i = 0; i < clusters.size(); ++i)
+        clusters[i] = static_cast<std::uint32_t>(panel[(firstRow + i) * kWidth]);
+}
+
+/// Whether each receiver's cluster is one of the layer.
+bool hasItsClusters(const CompressedLayer& layer) {
+    std::vector<std::uint32_t> clusters(layer.table.numbers.rowCount());
+    readClusters(layer, 0, clusters);
+    return std::ranges::all_of(clusters,
+                               [&](std::uint32_t k) { return k < layer.bases->clusterCount(); });
+}
+
+bool isComplete(const ClusterBases& bases, std::size_t dimension) {
+    const StoredTable& vectors = bases.vectors;
+    return bases.clusterCount() > 0 && vectors.numbers.columnCount() == dimension &&
+           vectors.numbers.rowCount() == bases.firstVectors().back() &&
+           vectors.numbers.elementBytes() == bytesPerCoefficient(vectors.encoding);
+}
+
+/// b_k0 + Σ_p w_p b_kp for each receiver, summed in double.
+std::vector<float> expandClusters(const CompressedLayer& layer) {
+    const std::vector<float> vectors = expandTable(layer.bases->vectors);
+    const std::vector<std::size_t> firstVectors = layer.bases->firstVectors();
+    const std::size_t dimension = layer.bases->vectors.numbers.columnCount();
+    const std::size_t rowLength = layer.table.numbers.columnCount();
+    const std::size_t receiverCount = layer.table.numbers.rowCount();
     std::vector<float> values;
-    values.reserve(layer.data.rowCount() * rowLength);
-    std::vector<Integer> row(rowLength);
-    for (std::size_t receiver = 0; receiver < layer.data.rowCount(); ++receiver) {
-        layer.data.readRow(receiver, std::span(row));
-        for (std::size_t column = 0; column < rowLength; ++column) {
-            const double fraction = static_cast<double>(row[column]) / maxInteger;
-            values.push_back(
-                static_cast<float>(layer.bias[column] + layer.scale[column] * fraction));
+    values.reserve(receiverCount * dimension);
+    std::vector<std::uint32_t> clusters(receiverCount);
+    readClusters(layer, 0, clusters);
+    std::vector<double> sum(dimension);
+    for (std::size_t begin = 0; begin < receiverCount; begin += kRowsAtOnce) {
+        const std::size_t count = std::min(kRowsAtOnce, receiverCount - begin);
+        const std::vector<float> rows = expandRows(layer.table, begin, count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t k = clusters[begin + i];
+            const float* vector = &vectors[firstVectors[k] * dimension];
+            std::copy_n(vector, dimension, sum.begin());
+            for (std::uint32_t p = 1; p <= layer.bases->componentCounts[k]; ++p) {
+                vector += dimension;
+                const double weight = rows[i * rowLength + p];
+                for (std::size_t j = 0; j < dimension; ++j)
+                    sum[j] += weight * vector[j];
+            }
+            for (const double value : sum)
+                values.push_back(static_cast<float>(value));
         }
     }
     return values;
@@ -36,18 +70,15 @@ std::vector<float> expandIntegers(const CompressedLayer& layer, double maxIntege
 
 }  // namespace
 
-std::string_view encodingName(TransferEncoding encoding) {
-    return kEncodingNames[static_cast<std::size_t>(encoding)];
+std::size_t ClusterBases::componentCount() const {
+    return componentCounts.empty() ? 0 : std::ranges::max(componentCounts);
 }
 
-std::optional<TransferEncoding> parseEncoding(std::string_view name) {
-    const auto found = std::find(kEncodingNames.begin(), kEncodingNames.end(), name);
-    if (found == kEncodingNames.end()) return std::nullopt;
-    return static_cast<TransferEncoding>(found - kEncodingNames.begin());
-}
-
-std::size_t bytesPerCoefficient(TransferEncoding encoding) {
-    return kEncodingBytes[static_cast<std::size_t>(encoding)];
+std::vector<std::size_t> ClusterBases::firstVectors() const {
+    std::vector<std::size_t> first = {0};
+    for (const std::uint32_t count : componentCounts)
+        first.push_back(first.back() + 1 + count);
+    return first;
 }
 
 const CompressedLayer* CompressedTransfer::findLayer(Transport transport) const {
@@ -58,28 +89,41 @@ const CompressedLayer* CompressedTransfer::findLayer(Transport transport) const 
 }
 
 std::size_t bytesPerReceiver(const CompressedLayer& layer) {
-    return layer.data.columnCount() * layer.data.elementBytes();
+    return layer.table.numbers.columnCount() * layer.table.numbers.elementBytes();
+}
+
+std::size_t countSharedBytes(const CompressedLayer& layer) {
+    return layer.bases ? layer.bases->vectors.numbers.byteCount() : 0;
 }
 
 bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer) {
-    return layer.data.rowCount() == transfer.receiverCount &&
-           layer.data.columnCount() ==
-               coefficientsPerReceiver(transfer.bandCount, layer.channelCount) &&
-           layer.data.elementBytes() == bytesPerCoefficient(layer.encoding);
+    const CoefficientTable& numbers = layer.table.numbers;
+    const std::size_t dimension = coefficientsPerReceiver(transfer.bandCount, layer.channelCount);
+    if (numbers.rowCount() != transfer.receiverCount ||
+        numbers.elementBytes() != bytesPerCoefficient(layer.table.encoding))
+        return false;
+    if (!layer.bases) return numbers.columnCount() == dimension;
+    return isComplete(*layer.bases, dimension) &&
+           numbers.columnCount() == 1 + layer.bases->componentCount() && hasItsClusters(layer);
+}
+
+void readClusters(const CompressedLayer& layer, std::size_t firstReceiver,
+                  std::span<std::uint32_t> clusters) {
+    const CoefficientTable& numbers = layer.table.numbers;
+    PRT_ASSERT(layer.bases && firstReceiver + clusters.size() <= numbers.rowCount(),
+               "the receivers are some of a layer with clusters");
+    switch (layer.table.encoding) {
+        case TransferEncoding::float32:
+            return readFirstColumn<float>(numbers, firstReceiver, clusters);
+        case TransferEncoding::unorm16:
+            return readFirstColumn<std::uint16_t>(numbers, firstReceiver, clusters);
+        case TransferEncoding::unorm8:
+            return readFirstColumn<std::uint8_t>(numbers, firstReceiver, clusters);
+    }
 }
 
 std::vector<float> expandLayer(const CompressedLayer& layer) {
-    PRT_ASSERT(layer.data.elementBytes() == bytesPerCoefficient(layer.encoding),
-               "the numbers are stored as the layer says");
-    switch (layer.encoding) {
-        case TransferEncoding::unorm16:
-            return expandIntegers<std::uint16_t>(layer, 65535.0);
-        case TransferEncoding::unorm8:
-            return expandIntegers<std::uint8_t>(layer, 255.0);
-        case TransferEncoding::float32:
-            break;
-    }
-    return copyRows<float>(layer.data);
+    return layer.bases ? expandClusters(layer) : expandTable(layer.table);
 }
 
 TransferField expandTransfer(const CompressedTransfer& transfer) {
@@ -88,8 +132,10 @@ TransferField expandTransfer(const CompressedTransfer& transfer) {
     field.receiverCount = transfer.receiverCount;
     field.receiverOfVertex = transfer.receiverOfVertex;
     for (const CompressedLayer& layer : transfer.layers)
-        field.layers.push_back({layer.transport, layer.channelCount,
-                                makeTable(layer.data.columnCount(), expandLayer(layer))});
+        field.layers.push_back(
+            {layer.transport, layer.channelCount,
+             makeTable(coefficientsPerReceiver(transfer.bandCount, layer.channelCount),
+                       expandLayer(layer))});
     return field;
 }
 

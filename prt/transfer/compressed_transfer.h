@@ -3,33 +3,43 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string_view>
+#include <span>
 #include <vector>
 
+#include "prt/transfer/stored_table.h"
 #include "prt/transfer/transfer_field.h"
 
 namespace prt {
 
-/// How one coefficient is stored.
-enum class TransferEncoding {
-    float32,
-    unorm16,  ///< value = bias + scale · q/65535, with a scale and bias per channel and coefficient
-              ///< [Kautz04]
-    unorm8,  ///< value = bias + scale · q/255
-};
+/// What the receivers of a cluster have in common: vectors, of which transfer vectors are sums.
+///
+///   T(x) = b_k0 + Σ_p w_p(x) b_kp        k the cluster of x, p ≥ 1, 0 ≤ w_p ≤ 1      [Sloan03]
+///
+/// One cluster for all is PCA; clusters with b_k0 alone are vector quantisation.
+///
+/// Differs from the paper: b_k0 is the mean moved to where the weights begin, and a component has
+/// the length of their range, so that weights are fractions without a scale of their own.
+struct ClusterBases {
+    std::vector<std::uint32_t> componentCounts{};  ///< of each cluster, beyond b_k0
+    StoredTable vectors{};  ///< b_k0, b_k1, … of the first cluster, then those of the next; a row
+                            ///< is [channel][coefficient]
 
-std::string_view encodingName(TransferEncoding encoding);
-std::optional<TransferEncoding> parseEncoding(std::string_view name);
-std::size_t bytesPerCoefficient(TransferEncoding encoding);
+    std::size_t clusterCount() const { return componentCounts.size(); }
+    /// The most that a cluster has.
+    std::size_t componentCount() const;
+    /// The rows of b_k0 for each k, and behind them the count of all.
+    std::vector<std::size_t> firstVectors() const;
+};
 
 /// A TransferLayer as it is stored.
 struct CompressedLayer {
     Transport transport = Transport::shadowed;
     int channelCount = 1;
-    TransferEncoding encoding = TransferEncoding::float32;
-    std::vector<float> scale{};  ///< [channel][coefficient]; empty for float32
-    std::vector<float> bias{};   ///< [channel][coefficient]; empty for float32
-    CoefficientTable data{};     ///< of the stored numbers: a row is [channel][coefficient]
+    /// A row a receiver: T as [channel][coefficient]; or, with clusters, k as it is and the
+    /// fractions w_1, w_2, …, without scale and bias, as many as bases.componentCount() and 0
+    /// beyond those of k.
+    StoredTable table{};
+    std::optional<ClusterBases> bases{};  ///< of a layer with clusters
 };
 
 /// A TransferField as it is stored.
@@ -42,11 +52,19 @@ struct CompressedTransfer {
     const CompressedLayer* findLayer(Transport transport) const;
 };
 
-/// What a layer stores for one receiver.
+/// What a layer stores for one receiver: its coefficients, or its cluster and weights.
 std::size_t bytesPerReceiver(const CompressedLayer& layer);
+
+/// What a layer stores for all receivers together: the bases of its clusters.
+std::size_t countSharedBytes(const CompressedLayer& layer);
 
 /// Whether a layer has all coefficients of all receivers, stored as it says.
 bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer);
+
+/// The clusters of receivers [firstReceiver, firstReceiver + clusters.size()) of a layer that has
+/// some. @param clusters  written
+void readClusters(const CompressedLayer& layer, std::size_t firstReceiver,
+                  std::span<std::uint32_t> clusters);
 
 /// Decodes a layer to floats, [receiver][channel][coefficient].
 std::vector<float> expandLayer(const CompressedLayer& layer);

@@ -57,10 +57,10 @@ inline CompressedTransfer makeTransfer(const Scene& scene, int bandCount, Transf
         CompressedLayer layer;
         layer.transport = transport;
         layer.channelCount = transport == Transport::interreflected ? 3 : 1;
-        layer.encoding = encoding;
+        layer.table.encoding = encoding;
         const std::size_t rowLength = coefficientsPerReceiver(bandCount, layer.channelCount);
         const std::size_t byteCount = bytesPerCoefficient(encoding);
-        layer.data = CoefficientTable(transfer.receiverCount, rowLength, byteCount);
+        layer.table.numbers = CoefficientTable(transfer.receiverCount, rowLength, byteCount);
         std::vector<std::byte> row(rowLength * byteCount);
         for (std::size_t receiver = 0; receiver < transfer.receiverCount; ++receiver) {
             for (std::size_t begin = 0; begin < row.size(); begin += byteCount) {
@@ -71,11 +71,11 @@ inline CompressedTransfer makeTransfer(const Scene& scene, int bandCount, Transf
                                          : &bits;
                 std::memcpy(row.data() + begin, source, byteCount);
             }
-            layer.data.writeRows(receiver, std::span<const std::byte>(row));
+            layer.table.numbers.writeRows(receiver, std::span<const std::byte>(row));
         }
         for (std::size_t i = 0; encoding != TransferEncoding::float32 && i < rowLength; ++i) {
-            layer.scale.push_back(0.3f * random.nextUnitFloat());
-            layer.bias.push_back(-0.1f * random.nextUnitFloat());
+            layer.table.scale.push_back(0.3f * random.nextUnitFloat());
+            layer.table.bias.push_back(-0.1f * random.nextUnitFloat());
         }
         transfer.layers.push_back(layer);
     }

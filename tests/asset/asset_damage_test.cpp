@@ -59,9 +59,10 @@ bool isSameTransfer(const CompressedTransfer& a, const CompressedTransfer& b) {
     for (std::size_t i = 0; i < a.layers.size(); ++i)
         if (a.layers[i].transport != b.layers[i].transport ||
             a.layers[i].channelCount != b.layers[i].channelCount ||
-            a.layers[i].encoding != b.layers[i].encoding ||
-            a.layers[i].scale != b.layers[i].scale || a.layers[i].bias != b.layers[i].bias ||
-            !(a.layers[i].data == b.layers[i].data))
+            a.layers[i].table.encoding != b.layers[i].table.encoding ||
+            a.layers[i].table.scale != b.layers[i].table.scale ||
+            a.layers[i].table.bias != b.layers[i].table.bias ||
+            !(a.layers[i].table.numbers == b.layers[i].table.numbers))
             return false;
     return true;
 }

@@ -31,8 +31,8 @@ using StoredRow = std::vector<std::byte>;
 
 /// What is stored of one receiver, byte by byte.
 StoredRow rowOf(const CompressedLayer& layer, std::size_t receiver) {
-    StoredRow row(layer.data.columnCount() * layer.data.elementBytes());
-    layer.data.readRow(receiver, std::span(row));
+    StoredRow row(layer.table.numbers.columnCount() * layer.table.numbers.elementBytes());
+    layer.table.numbers.readRow(receiver, std::span(row));
     return row;
 }
 
@@ -46,10 +46,10 @@ void expectSameTransfer(const CompressedTransfer& read, const CompressedTransfer
     for (std::size_t i = 0; i < read.layers.size(); ++i) {
         EXPECT_EQ(read.layers[i].transport, written.layers[i].transport);
         EXPECT_EQ(read.layers[i].channelCount, written.layers[i].channelCount);
-        EXPECT_EQ(read.layers[i].encoding, written.layers[i].encoding);
-        EXPECT_EQ(read.layers[i].scale, written.layers[i].scale);
-        EXPECT_EQ(read.layers[i].bias, written.layers[i].bias);
-        ASSERT_EQ(read.layers[i].data.rowCount(), read.receiverCount);
+        EXPECT_EQ(read.layers[i].table.encoding, written.layers[i].table.encoding);
+        EXPECT_EQ(read.layers[i].table.scale, written.layers[i].table.scale);
+        EXPECT_EQ(read.layers[i].table.bias, written.layers[i].table.bias);
+        ASSERT_EQ(read.layers[i].table.numbers.rowCount(), read.receiverCount);
         for (std::size_t vertex = 0; vertex < read.receiverCount; ++vertex)
             EXPECT_EQ(rowOf(read.layers[i], vertex),
                       rowOf(written.layers[i], written.receiverOfVertex[vertex]));
@@ -167,8 +167,8 @@ TEST(Asset, TheLayerOfTheFormatsExampleHasTheChecksumGivenThere) {
     Scene scene = makeTwoGrids();
     CompressedTransfer transfer =
         makeTransfer(scene, 2, TransferEncoding::unorm16, {Transport::shadowed});
-    transfer.layers[0].scale = {0.25f, 0.5f, 0.5f, 0.5f};
-    transfer.layers[0].bias = {0.0f, -0.25f, -0.25f, -0.25f};
+    transfer.layers[0].table.scale = {0.25f, 0.5f, 0.5f, 0.5f};
+    transfer.layers[0].table.bias = {0.0f, -0.25f, -0.25f, -0.25f};
     GlbFile file = test::splitGlb(encodeAsset(scene, transfer, makeProvenance()));
     EXPECT_EQ(test::headerOf(file)["layers"][0]["checksum"], "1e97d30d");
 }

@@ -15,9 +15,9 @@ Asset assetWith(const std::vector<float>& vector) {
     asset.transfer.bandCount = 2;
     asset.transfer.receiverCount = 4;
     CompressedLayer layer;
-    layer.data = CoefficientTable(4, vector.size(), sizeof(float));
+    layer.table.numbers = CoefficientTable(4, vector.size(), sizeof(float));
     for (std::size_t vertex = 0; vertex < 4; ++vertex)
-        layer.data.writeRows(vertex, std::span(vector));
+        layer.table.numbers.writeRows(vertex, std::span(vector));
     asset.transfer.layers = {layer};
     return asset;
 }
@@ -51,7 +51,8 @@ TEST(CheckAsset, NegativeRadianceIsDoubted) {
 TEST(CheckAsset, ManyUnlitVerticesAreDoubtedAndFewAreNot) {
     expectProblem({0.0f, 0.0f, 0.0f, 0.0f}, "no light");
     Asset asset = assetWith({0.2f, 0.0f, 0.1f, 0.0f});
-    asset.transfer.layers[0].data.writeRows(0, std::span<const float>(std::vector<float>(4)));
+    asset.transfer.layers[0].table.numbers.writeRows(0,
+                                                     std::span<const float>(std::vector<float>(4)));
     EXPECT_TRUE(findAssetProblems(asset).empty());
 }
 

@@ -51,18 +51,18 @@ CompressedTransfer makeGoldenTransfer(TransferEncoding encoding) {
         CompressedLayer layer;
         layer.transport = transport;
         layer.channelCount = transport == Transport::interreflected ? 3 : 1;
-        layer.encoding = encoding;
+        layer.table.encoding = encoding;
         const std::size_t columnCount = coefficientsPerReceiver(kBandCount, layer.channelCount);
         if (encoding == TransferEncoding::float32) {
-            layer.data = makeStored<float>(columnCount, 1.0f / 1024.0f);
+            layer.table.numbers = makeStored<float>(columnCount, 1.0f / 1024.0f);
         } else {
             for (std::size_t column = 0; column < columnCount; ++column) {
-                layer.scale.push_back(0.5f + static_cast<float>(column) / 64.0f);
-                layer.bias.push_back(-0.25f);
+                layer.table.scale.push_back(0.5f + static_cast<float>(column) / 64.0f);
+                layer.table.bias.push_back(-0.25f);
             }
-            layer.data = encoding == TransferEncoding::unorm16
-                             ? makeStored<std::uint16_t>(columnCount, 1.0f)
-                             : makeStored<std::uint8_t>(columnCount, 1.0f);
+            layer.table.numbers = encoding == TransferEncoding::unorm16
+                                      ? makeStored<std::uint16_t>(columnCount, 1.0f)
+                                      : makeStored<std::uint8_t>(columnCount, 1.0f);
         }
         transfer.layers.push_back(std::move(layer));
     }
@@ -96,7 +96,7 @@ TEST_P(GoldenAsset, OfEveryReleasedVersionIsRead) {
     ASSERT_EQ(asset.transfer.receiverCount, kVertexCount);
     ASSERT_EQ(asset.transfer.layers.size(), 2u);
     for (const CompressedLayer& layer : asset.transfer.layers) {
-        EXPECT_EQ(layer.encoding, encoding);
+        EXPECT_EQ(layer.table.encoding, encoding);
         const std::vector<float> values = expandLayer(layer);
         const std::size_t columnCount = coefficientsPerReceiver(kBandCount, layer.channelCount);
         ASSERT_EQ(values.size(), kVertexCount * columnCount);

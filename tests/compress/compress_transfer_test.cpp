@@ -89,8 +89,9 @@ TEST(CompressTransfer, FloatsStayAsTheyAre) {
     const TransferField field = randomField();
     const CompressedTransfer compressed = compressTransfer(field, {TransferEncoding::float32});
     for (std::size_t l = 0; l < field.layers.size(); ++l) {
-        EXPECT_TRUE(compressed.layers[l].data == field.layers[l].coefficients);
-        EXPECT_TRUE(compressed.layers[l].scale.empty() && compressed.layers[l].bias.empty());
+        EXPECT_TRUE(compressed.layers[l].table.numbers == field.layers[l].coefficients);
+        EXPECT_TRUE(compressed.layers[l].table.scale.empty() &&
+                    compressed.layers[l].table.bias.empty());
     }
 }
 
@@ -103,8 +104,8 @@ TEST(CompressTransfer, AllButTheNumbersIsKept) {
     for (std::size_t l = 0; l < field.layers.size(); ++l) {
         EXPECT_EQ(compressed.layers[l].transport, field.layers[l].transport);
         EXPECT_EQ(compressed.layers[l].channelCount, field.layers[l].channelCount);
-        EXPECT_EQ(compressed.layers[l].encoding, TransferEncoding::unorm16);
-        EXPECT_EQ(2 * compressed.layers[l].data.byteCount(),
+        EXPECT_EQ(compressed.layers[l].table.encoding, TransferEncoding::unorm16);
+        EXPECT_EQ(2 * compressed.layers[l].table.numbers.byteCount(),
                   field.layers[l].coefficients.byteCount());
     }
 }
@@ -125,7 +126,7 @@ TEST(CompressTransfer, AConstantCoefficientAndTheEndsOfARangeAreExact) {
             ASSERT_EQ(expanded[row * rowLength], 0.28209479f);
             ASSERT_EQ(expanded[row * rowLength + 1], row % 2 == 0 ? 0.0f : 0.1f);
         }
-        EXPECT_EQ(compressed.layers[0].scale[0], 0.0f);
+        EXPECT_EQ(compressed.layers[0].table.scale[0], 0.0f);
     }
 }
 
@@ -136,7 +137,7 @@ TEST(CompressTransfer, AFieldWithoutReceiversIsEmpty) {
     for (const TransferEncoding encoding :
          {TransferEncoding::float32, TransferEncoding::unorm16, TransferEncoding::unorm8}) {
         const CompressedTransfer compressed = compressTransfer(field, {encoding});
-        EXPECT_EQ(compressed.layers[0].data.rowCount(), 0u);
+        EXPECT_EQ(compressed.layers[0].table.numbers.rowCount(), 0u);
         EXPECT_TRUE(expandLayer(compressed.layers[0]).empty());
     }
 }

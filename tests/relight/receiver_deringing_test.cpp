@@ -28,8 +28,8 @@ Relighter makeRelighter(int bandCount, int channelCount, const std::vector<float
     CompressedLayer layer;
     layer.transport = kTransport;
     layer.channelCount = channelCount;
-    layer.data = makeTable(coefficientsPerReceiver(bandCount, channelCount), rows);
-    transfer.receiverCount = layer.data.rowCount();
+    layer.table.numbers = makeTable(coefficientsPerReceiver(bandCount, channelCount), rows);
+    transfer.receiverCount = layer.table.numbers.rowCount();
     transfer.layers.push_back(layer);
     return Relighter(transfer, kTransport);
 }

@@ -62,14 +62,14 @@ CompressedTransfer makeRandomTransfer(int bandCount, int channelCount, TransferE
     CompressedLayer layer;
     layer.transport = kTransport;
     layer.channelCount = channelCount;
-    layer.encoding = encoding;
+    layer.table.encoding = encoding;
     const auto rowCount = static_cast<std::size_t>(channelCount * shCoefficientCount(bandCount));
     RandomStream random(20260101, receiverCount);
-    layer.data = makeRandomTable(receiverCount, rowCount, encoding, random);
+    layer.table.numbers = makeRandomTable(receiverCount, rowCount, encoding, random);
     if (encoding != TransferEncoding::float32) {
         for (std::size_t row = 0; row < rowCount; ++row) {
-            layer.scale.push_back(random.nextUnitFloat() + 0.1f);
-            layer.bias.push_back(static_cast<float>(randomSigned(random)));
+            layer.table.scale.push_back(random.nextUnitFloat() + 0.1f);
+            layer.table.bias.push_back(static_cast<float>(randomSigned(random)));
         }
     }
     transfer.layers.push_back(layer);
@@ -78,8 +78,8 @@ CompressedTransfer makeRandomTransfer(int bandCount, int channelCount, TransferE
 
 template <class Stored>
 double storedValue(const CompressedLayer& layer, std::size_t index) {
-    std::vector<Stored> row(layer.data.columnCount());
-    layer.data.readRow(index / row.size(), std::span(row));
+    std::vector<Stored> row(layer.table.numbers.columnCount());
+    layer.table.numbers.readRow(index / row.size(), std::span(row));
     return static_cast<double>(row[index % row.size()]);
 }
 
@@ -100,14 +100,14 @@ Exact relightSlowly(const CompressedTransfer& transfer, const Lighting& lighting
         const std::size_t index = receiver * n * static_cast<std::size_t>(layer.channelCount) + row;
         double bias = 0.0;
         double value = 0.0;
-        if (layer.encoding == TransferEncoding::float32) {
+        if (layer.table.encoding == TransferEncoding::float32) {
             value = storedValue<float>(layer, index);
-        } else if (layer.encoding == TransferEncoding::unorm16) {
-            bias = layer.bias[row];
-            value = layer.scale[row] * storedValue<std::uint16_t>(layer, index) / 65535.0;
+        } else if (layer.table.encoding == TransferEncoding::unorm16) {
+            bias = layer.table.bias[row];
+            value = layer.table.scale[row] * storedValue<std::uint16_t>(layer, index) / 65535.0;
         } else {
-            bias = layer.bias[row];
-            value = layer.scale[row] * storedValue<std::uint8_t>(layer, index) / 255.0;
+            bias = layer.table.bias[row];
+            value = layer.table.scale[row] * storedValue<std::uint8_t>(layer, index) / 255.0;
         }
         const double light = lighting.coefficients[i][color];
         exact.radiance += (bias + value) * light;
@@ -315,7 +315,7 @@ TEST(Relighter, ShadingOfInterpolatedTransferIsInterpolatedShading) {
                 kWeights[corner] * storedValue<float>(layer, corner * kCoefficientCount + i);
         rows.push_back(static_cast<float>(interpolated));
     }
-    layer.data = makeTable(kCoefficientCount, rows);
+    layer.table.numbers = makeTable(kCoefficientCount, rows);
     transfer.receiverCount = 4;
 
     const Lighting lighting = makeRandomLighting(5, 13);

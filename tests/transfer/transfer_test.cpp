@@ -47,11 +47,11 @@ CompressedTransfer storedTransfer(TransferEncoding encoding, const std::vector<N
     transfer.bandCount = 1;
     transfer.receiverCount = numbers.size();
     CompressedLayer layer;
-    layer.encoding = encoding;
-    layer.data = makeTable(1, numbers);
+    layer.table.encoding = encoding;
+    layer.table.numbers = makeTable(1, numbers);
     if (encoding != TransferEncoding::float32) {
-        layer.scale = {0.5f};
-        layer.bias = {-0.25f};
+        layer.table.scale = {0.5f};
+        layer.table.bias = {-0.25f};
     }
     transfer.layers = {layer};
     return transfer;
