@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "prt/base/assert.h"
+#include "prt/compress/light_error_weights.h"
 #include "prt/compress/quantise_table.h"
 
 namespace prt {
@@ -22,6 +23,23 @@ bool isFinite(const CoefficientTable& coefficients) {
     return true;
 }
 
+CompressedLayer compressLayer(TransferLayer layer, int bandCount, const CompressOptions& options) {
+    CompressedLayer compressed{.transport = layer.transport, .channelCount = layer.channelCount};
+    if (!options.clusters || layer.coefficients.rowCount() == 0) {
+        compressed.table = quantiseTable(std::move(layer.coefficients), options.encoding);
+        return compressed;
+    }
+    const std::vector<Vec3d>& light = options.clusters->light;
+    std::vector<float> errorWeights;
+    if (!light.empty()) errorWeights = lightErrorWeights(light, bandCount, layer.channelCount);
+    ClusteredTable clustered =
+        compressClusters(layer.coefficients, errorWeights, *options.clusters, options.encoding,
+                         options.threadCount, options.progress);
+    compressed.table = std::move(clustered.table);
+    compressed.bases = std::move(clustered.bases);
+    return compressed;
+}
+
 }  // namespace
 
 CompressedTransfer compressTransfer(TransferField field, const CompressOptions& options) {
@@ -35,10 +53,7 @@ CompressedTransfer compressTransfer(TransferField field, const CompressOptions& 
                            coefficientsPerReceiver(field.bandCount, layer.channelCount),
                    "the layer has all coefficients of all receivers");
         PRT_ASSERT(isFinite(layer.coefficients), "every coefficient is finite");
-        transfer.layers.push_back(
-            {.transport = layer.transport,
-             .channelCount = layer.channelCount,
-             .table = quantiseTable(std::move(layer.coefficients), options.encoding)});
+        transfer.layers.push_back(compressLayer(std::move(layer), field.bandCount, options));
     }
     return transfer;
 }

@@ -18,17 +18,6 @@ std::size_t drawBelow(RandomStream& random, std::size_t count) {
     return static_cast<std::size_t>(random.nextUnitDouble() * static_cast<double>(count));
 }
 
-/// One vector at random from each of `count` equal parts of all, ascending.
-std::vector<std::uint32_t> drawIndices(std::size_t total, std::size_t count, RandomStream random) {
-    if (count >= total) return allIndices(total);
-    std::vector<std::uint32_t> indices(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t begin = i * total / count, end = (i + 1) * total / count;
-        indices[i] = static_cast<std::uint32_t>(begin + drawBelow(random, end - begin));
-    }
-    return indices;
-}
-
 std::vector<double> copyVector(const WeightedVectors& vectors, std::uint32_t index) {
     const auto row = vectors.numbers.subspan(index * vectors.dimension, vectors.dimension);
     return weighPoint(vectors, row);
@@ -151,6 +140,16 @@ std::vector<Subspace> moveCentroids(const WeightedVectors& vectors,
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> drawIndices(std::size_t total, std::size_t count, RandomStream random) {
+    if (count >= total) return allIndices(total);
+    std::vector<std::uint32_t> indices(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t begin = i * total / count, end = (i + 1) * total / count;
+        indices[i] = static_cast<std::uint32_t>(begin + drawBelow(random, end - begin));
+    }
+    return indices;
+}
 
 Assignment assignVectors(const WeightedVectors& vectors, std::span<const std::uint32_t> indices,
                          std::span<const Subspace> subspaces, int threadCount) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "prt/base/random.h"
 #include "prt/compress/kmeans.h"
 #include "prt/compress/subspace_kernel.h"
 #include "prt/compress/weighted_vectors.h"
@@ -15,6 +16,10 @@ struct Assignment {
     std::vector<std::uint32_t> labels;
     std::vector<float> squaredDistances;
 };
+
+/// One index at random from each of `count` equal parts of [0, total), ascending; all indices where
+/// these are no more.
+std::vector<std::uint32_t> drawIndices(std::size_t total, std::size_t count, RandomStream random);
 
 /// Finds the nearest of some points, or subspaces, for each of some vectors.
 Assignment assignVectors(const WeightedVectors& vectors, std::span<const std::uint32_t> indices,
