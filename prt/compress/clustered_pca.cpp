@@ -190,10 +190,10 @@ Clustering iterate(const WeightedVectors& vectors, Clustering clustering, std::s
     return clustering;
 }
 
-/// Gives components to the clusters where a weight explains most, until the error or the number
-/// of weights is reached.
+/// Gives components to the clusters where one explains most, until the error is reached; or, where
+/// the number of weights is limited, where a weight explains most.
 std::vector<std::size_t> allotComponents(const Clustering& clustering, double maxSquaredError,
-                                         double weightCount) {
+                                         double weightCount, bool isBudgeted) {
     struct Component {
         double squares;
         double members;
@@ -203,7 +203,8 @@ std::vector<std::size_t> allotComponents(const Clustering& clustering, double ma
     double squaredError = 0.0;
     for (std::size_t k = 0; k < clustering.axes.size(); ++k) {
         squaredError += clustering.axes[k].totalSquares;
-        const auto members = static_cast<double>(clustering.groups.members(k).size());
+        const auto members =
+            isBudgeted ? static_cast<double>(clustering.groups.members(k).size()) : 1.0;
         for (const double squares : clustering.axes[k].squares)
             components.push_back({squares, members, k});
     }
@@ -233,10 +234,10 @@ double sumErrors(const Clustering& clustering, std::span<const std::size_t> coun
 
 /// Counts of components, adaptive where the options ask for it.
 std::vector<std::size_t> chooseCounts(const Clustering& clustering, double maxSquaredError,
-                                      double averageCount) {
+                                      double averageCount, bool isBudgeted) {
     const auto vectorCount = static_cast<double>(clustering.labels.size());
     std::vector<std::size_t> counts =
-        allotComponents(clustering, maxSquaredError, averageCount * vectorCount);
+        allotComponents(clustering, maxSquaredError, averageCount * vectorCount, isBudgeted);
     // What is left of a limited number of weights may fit no component.
     const std::vector<std::size_t> even(counts.size(), static_cast<std::size_t>(averageCount));
     const double squaredError = sumErrors(clustering, counts);
@@ -296,7 +297,7 @@ ClusteredPca computeClusteredPca(const VectorSet& vectors, const ClusteredPcaOpt
     const auto numberCount = static_cast<double>(vectors.numbers.size());
     const double maxSquaredError =
         options.maxError * options.maxError * numberCount / weighted.squaredErrorUnit;
-    const auto counts = chooseCounts(clustering, maxSquaredError, averageCount);
+    const auto counts = chooseCounts(clustering, maxSquaredError, averageCount, isBudgeted);
     return encode(sorted, std::move(clustering), counts, options.threadCount);
 }
 

@@ -50,8 +50,8 @@ struct ClusteredPca {
 /// iterations look for a vector's cluster among those 16 that reproduce the present members of its
 /// own best; every tenth, and each when that no longer helps much, looks among all.
 ///
-/// Adaptive counts are given after the last iteration, to the components that explain most for each
-/// weight that is stored.
+/// Adaptive counts are given after the last iteration, to the components that explain most; where
+/// averageComponentCount limits them, most for each weight that is stored.
 ///
 /// There are fewer clusters and components than asked for where these reproduce all vectors to
 /// float. The same seed gives the same bits for any number of threads (C10).

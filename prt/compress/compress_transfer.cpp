@@ -24,8 +24,12 @@ bool isFinite(const CoefficientTable& coefficients) {
 }
 
 CompressedLayer compressLayer(TransferLayer layer, int bandCount, const CompressOptions& options) {
+    const bool isEmpty = layer.coefficients.rowCount() == 0;
+    if (options.budget && !isEmpty)
+        return compressToBudget(layer, options.clusters.value_or(ClusterOptions{}), *options.budget,
+                                options.threadCount, options.progress);
     CompressedLayer compressed{.transport = layer.transport, .channelCount = layer.channelCount};
-    if (!options.clusters || layer.coefficients.rowCount() == 0) {
+    if (!options.clusters || isEmpty) {
         compressed.table = quantiseTable(std::move(layer.coefficients), options.encoding);
         return compressed;
     }
