@@ -11,7 +11,7 @@ namespace prt {
 namespace {
 
 /// Receivers are judged in parts of as many, so that their bands take little memory.
-constexpr std::size_t kPartSize = 256 * kRelightBlockSize;
+constexpr std::size_t kPartSize = kRelightPartSize;
 
 /// The lighting as one light a band, each without the others.
 std::vector<Lighting> splitBands(const Lighting& lighting) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "prt/relight/relighter.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "prt/relight/relight_kernel.cpp"
 #include <hwy/cache_control.h>

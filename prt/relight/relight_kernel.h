@@ -9,6 +9,9 @@
 
 namespace prt {
 
+/// Vectors are multiplied in blocks of as many.
+inline constexpr std::size_t kRelightBlockSize = 16;
+
 /// Lighting with the scale and bias of the stored transfer folded in, so that the stored numbers q
 /// are multiplied as they are:
 ///

@@ -9,8 +9,8 @@
 
 namespace prt {
 
-/// Receivers are relit in blocks of as many.
-inline constexpr std::size_t kRelightBlockSize = 16;
+/// Where parts of the receivers may begin: at multiples of it.
+inline constexpr std::size_t kRelightPartSize = 4096;
 
 /// Relights one layer of an asset, as often as the light changes.
 ///
@@ -40,7 +40,7 @@ class Relighter {
     void relight(const Lighting& lighting, std::span<Vec3f> radiance) const;
 
     /// The same for receivers [begin, begin + radiance.size()): for callers with their own threads.
-    /// @param begin  a multiple of kRelightBlockSize
+    /// @param begin  a multiple of kRelightPartSize
     void relight(const Lighting& lighting, std::size_t begin, std::span<Vec3f> radiance) const;
 
   private:

@@ -196,14 +196,14 @@ TEST_P(RelighterOfEncoding, WritesLargeResultsToAnyAddressAndNothingBeside) {
 }
 
 TEST_P(RelighterOfEncoding, GivesTheSameBitsWholeAndInParts) {
-    constexpr std::size_t kReceiverCount = 1003;
+    constexpr std::size_t kReceiverCount = 2 * kRelightPartSize + 1003;
     const CompressedTransfer transfer = makeTransfer(4, kReceiverCount);
     const Relighter relighter(transfer, kTransport);
     const Lighting lighting = makeRandomLighting(4, 5);
     std::vector<Vec3f> whole(kReceiverCount);
     relighter.relight(lighting, whole);
 
-    for (const std::size_t partSize : {std::size_t{16}, std::size_t{48}, std::size_t{512}}) {
+    for (const std::size_t partSize : {kRelightPartSize, 2 * kRelightPartSize}) {
         std::vector<Vec3f> parts(kReceiverCount);
         for (std::size_t begin = 0; begin < kReceiverCount; begin += partSize) {
             const std::size_t count = std::min(partSize, kReceiverCount - begin);
@@ -214,16 +214,16 @@ TEST_P(RelighterOfEncoding, GivesTheSameBitsWholeAndInParts) {
 }
 
 TEST_P(RelighterOfEncoding, PartsThatEndInsideABlockLeaveTheRestAlone) {
-    const CompressedTransfer transfer = makeTransfer(3, 64);
+    const CompressedTransfer transfer = makeTransfer(3, kRelightPartSize + 64);
     const Relighter relighter(transfer, kTransport);
     const Lighting lighting = makeRandomLighting(3, 5);
-    std::vector<Vec3f> whole(64);
+    std::vector<Vec3f> whole(kRelightPartSize + 64);
     relighter.relight(lighting, whole);
 
     const Vec3f untouched(-12345.0f);
     std::vector<Vec3f> part(8, untouched);
-    relighter.relight(lighting, 32, std::span(part).first(5));
-    EXPECT_TRUE(sameBits(std::span(part).first(5), std::span(whole).subspan(32, 5)));
+    relighter.relight(lighting, kRelightPartSize, std::span(part).first(5));
+    EXPECT_TRUE(sameBits(std::span(part).first(5), std::span(whole).subspan(kRelightPartSize, 5)));
     EXPECT_EQ(part[5], untouched);
 }
 
