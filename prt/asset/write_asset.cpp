@@ -25,8 +25,8 @@ void copyAttribute(const CoefficientTable& data, std::size_t part, Receivers rec
     data.releaseMemory();
 }
 
-std::vector<GlbAttribute> makeAttributes(const CompressedTransfer& transfer, Receivers receivers) {
-    std::vector<GlbAttribute> attributes;
+std::vector<GlbAccessor> makeAttributes(const CompressedTransfer& transfer, Receivers receivers) {
+    std::vector<GlbAccessor> attributes;
     for (const CompressedLayer& layer : transfer.layers) {
         const AccessorInfo info = attributeInfo(layer, receivers.size());
         for (std::size_t part = 0; part < countAttributes(transfer.bandCount, layer); ++part) {

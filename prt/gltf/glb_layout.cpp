@@ -65,6 +65,10 @@ std::size_t countUvSets(const Mesh& mesh) {
 /// Lays one part of the file after another.
 class Arranger {
   public:
+    void addOwnAccessor(const GlbAccessor& accessor) {
+        addAccessor(accessor.name, accessor.info, ViewTarget::none, accessor.write);
+    }
+
     void addMesh(const Scene& scene, std::size_t meshIndex, const GlbExtension* extension) {
         const Mesh& mesh = scene.meshes[meshIndex];
         meshName_ = " of mesh " + std::to_string(meshIndex);
@@ -78,8 +82,8 @@ class Arranger {
             addUvSet(mesh, set);
         if (!mesh.colors.empty()) addColors(mesh);
         if (extension) {
-            for (const GlbAttribute& attribute : extension->attributes[meshIndex])
-                addAttribute(attribute.semantic, attribute.info, attribute.write);
+            for (const GlbAccessor& attribute : extension->attributes[meshIndex])
+                addAttribute(attribute.name, attribute.info, attribute.write);
         }
         addIndices(mesh);
     }
@@ -88,7 +92,8 @@ class Arranger {
         const std::string name = "image " + std::to_string(index);
         if (image.encoded.empty())
             throw Error(ErrorCode::unsupported, name + " has no PNG or JPEG data to be stored");
-        addView({name, 0, image.encoded.size(), ViewTarget::none, false, copyOf(image.encoded)});
+        addView({name, 0, image.encoded.size(), ViewTarget::none, false, copyOf(image.encoded)},
+                image.encoded.size());
     }
 
     GlbLayout takeLayout() { return std::move(layout_); }
@@ -136,18 +141,19 @@ class Arranger {
                      Writer write) {
         const std::size_t elementBytes =
             static_cast<std::size_t>(info.componentCount) * componentBytes(info.type);
-        PRT_ASSERT(target == ViewTarget::indices || elementBytes % kAlignmentBytes == 0,
+        PRT_ASSERT(target != ViewTarget::vertices || elementBytes % kAlignmentBytes == 0,
                    "vertex attributes start at multiples of four bytes");
         layout_.accessors.push_back({info, std::nullopt});
-        addView({name, 0, info.count * elementBytes, target, info.type == ComponentType::float32,
-                 std::move(write)});
+        // What an accessor reads is padded; images need no alignment, and stay as long as they
+        // came.
+        const std::size_t dataBytes = info.count * elementBytes;
+        addView({name, 0, alignUp(dataBytes), target, info.type == ComponentType::float32,
+                 std::move(write)},
+                dataBytes);
     }
 
-    /// Pads what an accessor reads to the alignment; images need none,
-    /// and stay as long as they came.
-    void addView(ViewLayout view) {
-        const std::size_t dataBytes = view.byteLength;
-        if (view.target != ViewTarget::none) view.byteLength = alignUp(dataBytes);
+    /// @param dataBytes  of view.byteLength, for view.write; the rest stays zero
+    void addView(ViewLayout view, std::size_t dataBytes) {
         view.write = [write = std::move(view.write), dataBytes](std::span<std::byte> bytes) {
             write(bytes.first(dataBytes));
         };
@@ -174,6 +180,9 @@ void requireFinite(const ViewLayout& view, std::span<const std::byte> bytes) {
 
 GlbLayout layOutBinary(const Scene& scene, const GlbExtension* extension) {
     Arranger arranger;
+    if (extension)
+        for (const GlbAccessor& accessor : extension->accessors)
+            arranger.addOwnAccessor(accessor);
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh)
         if (scene.meshes[mesh].triangleCount() > 0) arranger.addMesh(scene, mesh, extension);
     for (std::size_t image = 0; image < scene.images.size(); ++image)

@@ -36,8 +36,9 @@ struct PrimitiveLayout {
     std::size_t indices = 0;                                      ///< accessor
 };
 
-/// What the binary chunk will hold: an accessor and a view for each attribute and index list, then
-/// a view for each image. Every byte of the buffer lies in exactly one view.
+/// What the binary chunk will hold: an accessor and a view for each of an extension's own
+/// accessors, then for each attribute and index list, then a view for each image. Every byte of the
+/// buffer lies in exactly one view.
 struct GlbLayout {
     std::vector<ViewLayout> views;
     std::vector<AccessorLayout> accessors;

@@ -13,10 +13,10 @@
 
 namespace prt {
 
-/// One more vertex attribute for a mesh. Its values are asked for once there is room for them in
-/// the file's memory, so that large ones are never held twice.
-struct GlbAttribute {
-    std::string semantic;  ///< "_PRT_0"
+/// One more accessor of the file. Its values are asked for once there is room for them in the
+/// file's memory, so that large ones are never held twice.
+struct GlbAccessor {
+    std::string name;  ///< the semantic of a vertex attribute, "_PRT_0"; else for complaints only
     AccessorInfo info;
     /// Writes all values, tightly packed and little endian, into the span, which has just the room.
     std::function<void(std::span<std::byte> values)> write;
@@ -25,9 +25,10 @@ struct GlbAttribute {
 /// What an extension adds to a plain scene file.
 struct GlbExtension {
     std::string name;
-    std::string rootJson;                               ///< the root's extension object
-    std::vector<std::string> meshJson;                  ///< one object a mesh of the scene
-    std::vector<std::vector<GlbAttribute>> attributes;  ///< for each mesh
+    std::string rootJson;                              ///< the root's extension object
+    std::vector<GlbAccessor> accessors;                ///< of no mesh; the file's 0, 1, …
+    std::vector<std::string> meshJson;                 ///< one object a mesh of the scene
+    std::vector<std::vector<GlbAccessor>> attributes;  ///< for each mesh
 };
 
 /// A CRC-32 as the extension's checksums write it: eight lower-case hexadecimal digits.

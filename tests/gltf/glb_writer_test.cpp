@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -338,6 +339,40 @@ TEST(GlbWriter, AnExtensionGetsItsAttributesAndTheChecksumOfEachView) {
     EXPECT_EQ(document.readRaw(*accessor), expected);
 }
 
+TEST(GlbWriter, AnExtensionsOwnAccessorsAreTheFirstOfTheFile) {
+    // Lengths that need padding, and elements that no vertex attribute may have.
+    const std::vector<GlbAccessor> accessors = {
+        {"five bytes",
+         {5, 1, ComponentType::uint8, true},
+         [](std::span<std::byte> values) { std::ranges::fill(values, std::byte{7}); }},
+        {"three shorts", {3, 1, ComponentType::uint16}, [](std::span<std::byte> values) {
+             std::ranges::fill(values, std::byte{9});
+         }}};
+    Scene scene = richScene();
+    const GltfDocument plain(encodeGlb(scene), "");
+    GlbExtension extension = plainExtension(3);
+    extension.meshJson.assign(2, "{}");
+    extension.attributes.resize(2);
+    extension.accessors = accessors;
+    const GltfDocument document(encodeGlb(scene, &extension), "");
+    ASSERT_EQ(document.accessorCount(), plain.accessorCount() + 3);
+    EXPECT_EQ(document.bufferViewCount(), plain.bufferViewCount() + 3);
+    for (std::size_t i = 0; i < accessors.size(); ++i) {
+        const AccessorInfo info = document.describeAccessor(i);
+        EXPECT_EQ(info.count, accessors[i].info.count);
+        EXPECT_EQ(info.componentCount, 1);
+        EXPECT_EQ(info.type, accessors[i].info.type);
+        EXPECT_EQ(info.normalized, accessors[i].info.normalized);
+    }
+    EXPECT_EQ(document.readRaw(0), std::vector<std::byte>(5, std::byte{7}));
+    EXPECT_EQ(document.readRaw(1), std::vector<std::byte>(6, std::byte{9}));
+    const Scene read = document.flatten().scene;
+    ASSERT_EQ(read.meshes.size(), 2u);
+    expectSameMesh(read.meshes[0], scene.meshes[0]);
+    ASSERT_EQ(read.images.size(), 2u);
+    EXPECT_EQ(read.images[1].encoded, scene.images[1].encoded);
+}
+
 TEST(GlbWriter, ChecksumsAreEightLowerCaseDigits) {
     EXPECT_EQ(formatChecksum(0x00c0ffeeu), "00c0ffee");
     EXPECT_EQ(formatChecksum(0xffffffffu), "ffffffff");
@@ -353,7 +388,7 @@ TEST(GlbWriter, MoreThanFourGibibytesAreRefusedBeforeTheyAreAllocated) {
     scene.meshes[0].positions.assign(kVertexCount, Vec3f(0.0f));
     scene.meshes[0].normals.assign(kVertexCount, Vec3f(0.0f, 1.0f, 0.0f));
     GlbExtension extension = plainExtension(kVertexCount);
-    GlbAttribute attribute = extension.attributes[0][0];
+    GlbAccessor attribute = extension.attributes[0][0];
     attribute.info.type = ComponentType::float32;
     attribute.write = [](std::span<std::byte>) { ADD_FAILURE() << "nothing is to be written"; };
     extension.attributes[0].assign(kAttributeCount, attribute);
