@@ -8,10 +8,12 @@
 #include <hwy/aligned_allocator.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <vector>
 
 #include "prt/base/assert.h"
+#include "prt/base/random.h"
 #include "prt/relight/relighter.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -119,11 +121,58 @@ CompressedTransfer makeTransfer(TransferEncoding encoding, int bandCount, int ch
     return transfer;
 }
 
-void relight(benchmark::State& state, TransferEncoding encoding) {
-    const auto bandCount = static_cast<int>(state.range(0));
-    const auto channelCount = static_cast<int>(state.range(1));
-    const Relighter relighter(makeTransfer(encoding, bandCount, channelCount), Transport::shadowed);
-    Lighting lighting(bandCount);
+/// How clusters lie over receivers that are numbered row by row over a square.
+enum class Labels {
+    inPatches,  ///< each a square patch, as it is nearly on a surface
+    random,     ///< the worst that there can be
+};
+
+std::uint32_t clusterOf(std::size_t receiver, std::size_t clusterCount, Labels labels) {
+    constexpr std::size_t kSide = 1000;
+    if (labels == Labels::random) {
+        RandomStream random(1, receiver);
+        return static_cast<std::uint32_t>(random.nextBits() % clusterCount);
+    }
+    const auto patches = static_cast<std::size_t>(std::sqrt(clusterCount));
+    const std::size_t column = receiver % kSide * patches / kSide;
+    const std::size_t row = receiver / kSide * patches / kSide;
+    return static_cast<std::uint32_t>(row * patches + column);
+}
+
+template <class Integer>
+CoefficientTable makeClusterTable(std::size_t clusterCount, std::size_t componentCount,
+                                  Labels labels) {
+    std::vector<Integer> rows(kReceiverCount * (1 + componentCount), Integer{0x3c});
+    for (std::size_t i = 0; i < kReceiverCount; ++i)
+        rows[i * (1 + componentCount)] = static_cast<Integer>(clusterOf(i, clusterCount, labels));
+    return makeTable(1 + componentCount, rows);
+}
+
+/// With bases of floats.
+CompressedTransfer makeClusteredTransfer(TransferEncoding encoding, int channelCount,
+                                         std::size_t clusterCount, std::size_t componentCount,
+                                         Labels labels) {
+    CompressedTransfer transfer;
+    transfer.bandCount = 5;
+    transfer.receiverCount = kReceiverCount;
+    CompressedLayer layer;
+    layer.channelCount = channelCount;
+    layer.table.encoding = encoding;
+    layer.table.numbers =
+        encoding == TransferEncoding::unorm8
+            ? makeClusterTable<std::uint8_t>(clusterCount, componentCount, labels)
+            : makeClusterTable<std::uint16_t>(clusterCount, componentCount, labels);
+    layer.bases.emplace();
+    layer.bases->componentCounts.assign(clusterCount, static_cast<std::uint32_t>(componentCount));
+    const std::size_t dimension = coefficientsPerReceiver(transfer.bandCount, channelCount);
+    layer.bases->vectors.numbers = makeTable(
+        dimension, std::vector<float>(clusterCount * (1 + componentCount) * dimension, 0.5f));
+    transfer.layers.push_back(std::move(layer));
+    return transfer;
+}
+
+void timeRelighting(benchmark::State& state, const Relighter& relighter) {
+    Lighting lighting(relighter.bandCount());
     std::fill(lighting.coefficients.begin(), lighting.coefficients.end(), Vec3d(1.0, 0.5, 0.25));
     std::vector<Vec3f> radiance(kReceiverCount);
 
@@ -145,6 +194,24 @@ void relight(benchmark::State& state, TransferEncoding encoding) {
     state.counters["median_ms"] = 1e3 * median(relightSeconds);
     state.counters["read_GB/s"] = 1e-9 * readRate;
     state.counters["of_read_bandwidth"] = relightRate / readRate;
+    state.counters["bytes"] = static_cast<double>(bytes) / kReceiverCount;
+    state.counters["receivers/s"] = kReceiverCount / median(relightSeconds);
+}
+
+void relight(benchmark::State& state, TransferEncoding encoding) {
+    const auto bandCount = static_cast<int>(state.range(0));
+    const auto channelCount = static_cast<int>(state.range(1));
+    timeRelighting(state,
+                   Relighter(makeTransfer(encoding, bandCount, channelCount), Transport::shadowed));
+}
+
+void relightClusters(benchmark::State& state, TransferEncoding encoding, Labels labels) {
+    const auto channelCount = static_cast<int>(state.range(0));
+    const auto clusterCount = static_cast<std::size_t>(state.range(1));
+    const auto componentCount = static_cast<std::size_t>(state.range(2));
+    timeRelighting(state, Relighter(makeClusteredTransfer(encoding, channelCount, clusterCount,
+                                                          componentCount, labels),
+                                    Transport::shadowed));
 }
 
 void chooseSizes(benchmark::internal::Benchmark* relighting) {
@@ -154,10 +221,35 @@ void chooseSizes(benchmark::internal::Benchmark* relighting) {
         ->Unit(benchmark::kMillisecond);
 }
 
+/// Clustered principal components; then principal components alone, and vector quantisation.
+void chooseClusters(benchmark::internal::Benchmark* relighting) {
+    relighting->ArgNames({"channels", "clusters", "components"})
+        ->ArgsProduct({{1, 3}, {256}, {8, 15}})
+        ->Args({3, 1, 12})
+        ->Args({3, 256, 0})
+        ->Unit(benchmark::kMillisecond);
+}
+
+void chooseManyClusters(benchmark::internal::Benchmark* relighting) {
+    relighting->ArgNames({"channels", "clusters", "components"})
+        ->ArgsProduct({{1}, {256, 65536}, {8}})
+        ->Unit(benchmark::kMillisecond);
+}
+
 BENCHMARK(readMemory)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(relight, float32, TransferEncoding::float32)->Apply(chooseSizes);
 BENCHMARK_CAPTURE(relight, unorm16, TransferEncoding::unorm16)->Apply(chooseSizes);
 BENCHMARK_CAPTURE(relight, unorm8, TransferEncoding::unorm8)->Apply(chooseSizes);
+BENCHMARK_CAPTURE(relightClusters, unorm8_patches, TransferEncoding::unorm8, Labels::inPatches)
+    ->Apply(chooseClusters);
+BENCHMARK_CAPTURE(relightClusters, unorm16_patches, TransferEncoding::unorm16, Labels::inPatches)
+    ->Apply(chooseClusters);
+BENCHMARK_CAPTURE(relightClusters, unorm8_random, TransferEncoding::unorm8, Labels::random)
+    ->Args({1, 256, 8})
+    ->ArgNames({"channels", "clusters", "components"})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(relightClusters, unorm16_random, TransferEncoding::unorm16, Labels::random)
+    ->Apply(chooseManyClusters);
 
 }  // namespace
 }  // namespace prt

@@ -5,82 +5,20 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "prt/relight/relight_kernel.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "prt/relight/relight_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace prt::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using FloatTag = hn::CappedTag<float, kRelightBlockSize>;
-using Vector = hn::Vec<FloatTag>;
-
-/// Radiance of as many receivers as a vector has lanes.
-struct RgbVector {
-    Vector red, green, blue;
-};
-
-HWY_INLINE Vector loadLanes(const float* stored) {
-    return hn::Load(FloatTag(), stored);
-}
-
-template <class Integer>
-HWY_INLINE Vector loadLanes(const Integer* stored) {
-    const hn::Rebind<Integer, FloatTag> storedTag;
-    const hn::Rebind<std::int32_t, FloatTag> wideTag;
-    return hn::ConvertTo(FloatTag(), hn::PromoteTo(wideTag, hn::Load(storedTag, stored)));
-}
-
-/// Adds one coefficient's T_i L_i.
-template <int kChannelCount, class Stored>
-HWY_INLINE void addCoefficient(const Stored* row, const Vec3f& light, RgbVector& sum) {
-    const FloatTag d;
-    const Vector red = loadLanes(row);
-    Vector green = red;
-    Vector blue = red;
-    if constexpr (kChannelCount == 3) {
-        green = loadLanes(row + kRelightBlockSize);
-        blue = loadLanes(row + 2 * kRelightBlockSize);
-    }
-    sum.red = hn::MulAdd(red, hn::Set(d, light.x), sum.red);
-    sum.green = hn::MulAdd(green, hn::Set(d, light.y), sum.green);
-    sum.blue = hn::MulAdd(blue, hn::Set(d, light.z), sum.blue);
-}
-
-/// Relights as many receivers of a block as a vector has lanes.
-///
-/// Even and odd coefficients are summed apart: two short chains of
-/// dependent additions, not one long.
-template <int kChannelCount, class Stored>
-HWY_INLINE void relightLanes(const Stored* row, const FoldedLight& light, float* rgb) {
-    constexpr std::size_t kRowSize = kChannelCount * kRelightBlockSize;
-    const FloatTag d;
-    const Vector zero = hn::Zero(d);
-    RgbVector even = {hn::Set(d, light.constant.x), hn::Set(d, light.constant.y),
-                      hn::Set(d, light.constant.z)};
-    RgbVector odd = {zero, zero, zero};
-
-    const Vec3f* coefficient = light.coefficients.data();
-    const Vec3f* const end = coefficient + light.coefficientCount;
-    for (; end - coefficient >= 2; coefficient += 2, row += 2 * kRowSize) {
-        addCoefficient<kChannelCount>(row, coefficient[0], even);
-        addCoefficient<kChannelCount>(row + kRowSize, coefficient[1], odd);
-    }
-    if (coefficient != end) addCoefficient<kChannelCount>(row, *coefficient, even);
-
-    hn::StoreInterleaved3(hn::Add(even.red, odd.red), hn::Add(even.green, odd.green),
-                          hn::Add(even.blue, odd.blue), d, rgb);
-}
-
 /// Copies past the caches, except for the incomplete vectors at both ends.
 HWY_INLINE void streamOut(const float* from, std::size_t count, float* to) {
     const FloatTag d;
     const std::size_t vectorSize = hn::Lanes(d);
-    const std::size_t phase = reinterpret_cast<std::uintptr_t>(to) / sizeof(float) % vectorSize;
-    const std::size_t head = std::min(count, (vectorSize - phase) % vectorSize);
+    const std::size_t head = countUnaligned(to, count);
     std::copy_n(from, head, to);
     std::size_t i = head;
     for (; i + vectorSize <= count; i += vectorSize)
@@ -99,8 +37,13 @@ void relightStored(const Stored* block, std::size_t blockSize, const FoldedLight
     for (std::size_t begin = 0; begin < receiverCount; begin += kStagedReceivers) {
         const std::size_t count = std::min(kStagedReceivers, receiverCount - begin);
         for (std::size_t i = 0; i < count; i += kRelightBlockSize, block += blockSize) {
-            for (std::size_t lane = 0; lane < kRelightBlockSize; lane += hn::Lanes(FloatTag()))
-                relightLanes<kChannelCount>(block + lane, light, staged + 3 * (i + lane));
+            for (std::size_t lane = 0; lane < kRelightBlockSize; lane += hn::Lanes(FloatTag())) {
+                const RgbVector rgb =
+                    relightLanes<kChannelCount>(block + lane, light.constant,
+                                                light.coefficients.data(), light.coefficientCount);
+                hn::StoreInterleaved3(rgb.red, rgb.green, rgb.blue, FloatTag(),
+                                      staged + 3 * (i + lane));
+            }
         }
         if (store == ResultStore::streaming)
             streamOut(staged, 3 * count, radiance + 3 * begin);

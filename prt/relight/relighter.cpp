@@ -1,12 +1,14 @@
 // Bibliography
 //   [Sloan02]  Precomputed radiance transfer: B is an inner product of light and transfer
-//   [Kautz04]  Integer transfer with a scale and a bias for each coefficient
+//   [Sloan03]  Clustered principal components for precomputed radiance transfer
 #include "prt/relight/relighter.h"
 
 #include <string>
+#include <variant>
 
 #include "prt/base/assert.h"
 #include "prt/base/error.h"
+#include "prt/relight/cluster_blocks.h"
 #include "prt/relight/vector_blocks.h"
 
 namespace prt {
@@ -26,26 +28,30 @@ const CompressedLayer& requireLayer(const CompressedTransfer& transfer, Transpor
                 available);
 }
 
-const CompressedLayer& requireComplete(const CompressedTransfer& transfer,
-                                       const CompressedLayer& layer) {
+std::variant<VectorBlocks, ClusterBlocks> makeBlocks(const CompressedTransfer& transfer,
+                                                     const CompressedLayer& layer) {
     PRT_ASSERT(transfer.bandCount >= 1 && transfer.bandCount <= kMaxBandCount,
                "a band count of the kernels");
     PRT_ASSERT(layer.channelCount == 1 || layer.channelCount == 3, "grey or coloured transfer");
-    PRT_ASSERT(isComplete(transfer, layer), "a vector a receiver");
-    return layer;
+    PRT_ASSERT(isComplete(transfer, layer), "transfer for each receiver");
+    if (layer.bases) return ClusterBlocks(layer, transfer.bandCount);
+    return VectorBlocks(layer.table, transfer.bandCount, layer.channelCount);
 }
+
+static_assert(kRelightPartSize % kRelightBlockSize == 0 &&
+              kRelightPartSize % kClusterPartSize == 0);
 
 }  // namespace
 
 struct Relighter::Blocks {
     int bandCount = 0;
     std::size_t receiverCount = 0;
-    VectorBlocks vectors;
+    std::variant<VectorBlocks, ClusterBlocks> transfer;
 
-    Blocks(const CompressedTransfer& transfer, const CompressedLayer& layer)
-        : bandCount(transfer.bandCount),
-          receiverCount(transfer.receiverCount),
-          vectors(requireComplete(transfer, layer).table, bandCount, layer.channelCount) {}
+    Blocks(const CompressedTransfer& asset, const CompressedLayer& layer)
+        : bandCount(asset.bandCount),
+          receiverCount(asset.receiverCount),
+          transfer(makeBlocks(asset, layer)) {}
 };
 
 Relighter::Relighter(const CompressedTransfer& transfer, Transport transport)
@@ -64,7 +70,7 @@ int Relighter::bandCount() const {
 }
 
 std::size_t Relighter::transferBytes() const {
-    return blocks_->vectors.byteCount();
+    return std::visit([](const auto& blocks) { return blocks.byteCount(); }, blocks_->transfer);
 }
 
 void Relighter::relight(const Lighting& lighting, std::span<Vec3f> radiance) const {
@@ -83,8 +89,9 @@ void Relighter::relight(const Lighting& lighting, std::size_t begin,
                "a part lies within the receivers");
     if (radiance.empty()) return;
     const bool isLarge = receiverCount() * sizeof(Vec3f) > kStreamingBytes;
-    blocks_->vectors.relight(lighting, begin,
-                             isLarge ? ResultStore::streaming : ResultStore::cached, radiance);
+    const ResultStore store = isLarge ? ResultStore::streaming : ResultStore::cached;
+    std::visit([&](const auto& blocks) { blocks.relight(lighting, begin, store, radiance); },
+               blocks_->transfer);
 }
 
 }  // namespace prt

@@ -17,8 +17,9 @@ inline constexpr std::size_t kRelightPartSize = 4096;
 ///   B(x) = Σ_i T_i(x) L_i        outgoing radiance is albedo(x) · B(x) (C7)  [Sloan02; Kautz04]
 ///
 /// Keeps its own copy of the transfer in blocks of 16 receivers, in the asset's precision, so that
-/// one pass over memory serves red, green and blue. The same light gives the same bits, whole or in
-/// parts, on one instruction set (C10).
+/// one pass over memory serves red, green and blue. With clusters the sum over i is made once for
+/// each of their vectors, and a receiver adds up those of its cluster [Sloan03]. The same light
+/// gives the same bits, whole or in parts, on one instruction set (C10).
 class Relighter {
   public:
     /// @param transfer   whose layers are as large as its counts say
@@ -31,7 +32,7 @@ class Relighter {
 
     std::size_t receiverCount() const;
     int bandCount() const;
-    /// Bytes of transfer that one relight() of all receivers reads; the last block counts whole.
+    /// Bytes of transfer that one relight() of all receivers reads; an unfilled block counts whole.
     std::size_t transferBytes() const;
 
     /// @param lighting  in the object's frame, with at most bandCount() bands; higher bands of the
