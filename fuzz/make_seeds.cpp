@@ -65,19 +65,27 @@ void writeGltf(const SeedFolder& seeds) {
     }
 }
 
+void writeAsset(const SeedFolder& seeds, const std::string& name, const prt::Scene& scene,
+                const prt::CompressedTransfer& transfer) {
+    const std::vector<std::byte> asset =
+        prt::encodeAsset(scene, transfer, prt::test::makeProvenance());
+    seeds.write("asset", name, asset);
+    const prt::test::GlbFile parts = prt::test::splitGlb(asset);
+    seeds.writeParts("asset_repaired", name, parts.json.dump(), parts.binary);
+}
+
 void writeAssets(const SeedFolder& seeds) {
     const prt::Scene scene = prt::test::makeTwoGrids();
+    const std::vector<prt::Transport> transports = {prt::Transport::shadowed,
+                                                    prt::Transport::interreflected};
     for (const prt::TransferEncoding encoding :
          {prt::TransferEncoding::float32, prt::TransferEncoding::unorm16,
           prt::TransferEncoding::unorm8}) {
-        const prt::CompressedTransfer transfer = prt::test::makeTransfer(
-            scene, 2, encoding, {prt::Transport::shadowed, prt::Transport::interreflected});
-        const std::vector<std::byte> asset =
-            prt::encodeAsset(scene, transfer, prt::test::makeProvenance());
         const std::string name(prt::encodingName(encoding));
-        seeds.write("asset", name, asset);
-        const prt::test::GlbFile parts = prt::test::splitGlb(asset);
-        seeds.writeParts("asset_repaired", name, parts.json.dump(), parts.binary);
+        writeAsset(seeds, name, scene, prt::test::makeTransfer(scene, 2, encoding, transports));
+        const prt::test::ClusterForm form{.weights = encoding, .vectors = encoding};
+        writeAsset(seeds, "clusters-" + name, scene,
+                   prt::test::makeClusteredTransfer(scene, 2, form, transports));
     }
 }
 

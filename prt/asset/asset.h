@@ -32,12 +32,13 @@ struct Asset {
 /// The version of the format that this library writes; it reads all
 /// versions with the same major number.
 inline constexpr int kAssetVersionMajor = 1;
-inline constexpr int kAssetVersionMinor = 0;
+inline constexpr int kAssetVersionMinor = 1;
 
 /// The bytes of a .prt.glb: glTF with the extension OPENPRT_radiance_transfer.
 ///
 /// @param transfer  of this scene: receiverOfVertex has one entry a vertex
-/// @throws Error    limitExceeded for more than the 4 GiB that a binary glTF can have
+/// @throws Error    limitExceeded for more than the 4 GiB that a binary glTF can have, and for more
+///                  than 65536 clusters (256 where weights are bytes) or 255 components in one
 std::vector<std::byte> encodeAsset(const Scene& scene, const CompressedTransfer& transfer,
                                    const Provenance& provenance);
 

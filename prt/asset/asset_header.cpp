@@ -1,11 +1,11 @@
 #include "prt/asset/asset_header.h"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "prt/asset/table_header.h"
 #include "prt/base/checksum.h"
 #include "prt/base/error.h"
 #include "prt/basis/sh.h"
@@ -20,38 +20,51 @@ using gltf::JsonCursor;
 
 // What the coefficients of this format are: outgoing radiance over the receiver's albedo (C6, C7).
 constexpr const char* kQuantity = "outgoingRadianceOverAlbedo";
+// Version 1.0 has no clusters.
+constexpr int kClustersSinceMinor = 1;
 
 std::string formatVersion() {
     return std::to_string(kAssetVersionMajor) + "." + std::to_string(kAssetVersionMinor);
 }
 
+/// What a layer says, but for the checksum of that.
+struct LayerDescription {
+    int bandCount = 0;
+    const CompressedLayer& layer;
+    const AttributeRange& range;
+    const VectorsPlace& vectors;
+};
+
+std::string encodingText(const CompressedLayer& layer) {
+    return layer.bases ? kClusters : std::string(encodingName(layer.table.encoding));
+}
+
 /// The CRC-32 of a layer's description: a line of text with all that it
 /// says, and its ranges as floats.
-std::string computeLayerChecksum(int bandCount, const CompressedLayer& layer,
-                                 const AttributeRange& range) {
-    std::string bytes = std::string(transportName(layer.transport)) + " " +
-                        std::string(encodingName(layer.table.encoding));
+std::string computeLayerChecksum(const LayerDescription& description) {
+    const CompressedLayer& layer = description.layer;
+    std::string bytes = std::string(transportName(layer.transport)) + " " + encodingText(layer);
     for (const std::size_t number : {static_cast<std::size_t>(layer.channelCount),
-                                     static_cast<std::size_t>(bandCount), range.first, range.count})
+                                     static_cast<std::size_t>(description.bandCount),
+                                     description.range.first, description.range.count})
         bytes += " " + std::to_string(number);
-    for (const std::vector<float>* numbers : {&layer.table.scale, &layer.table.bias})
-        bytes.append(reinterpret_cast<const char*>(numbers->data()),
-                     numbers->size() * sizeof(float));
+    if (layer.bases) bytes += " " + clusterChecksumText(layer, description.vectors);
+    bytes += rangeBytes(layer.bases ? layer.bases->vectors : layer.table);
     return formatChecksum(computeCrc32(std::as_bytes(std::span(bytes))));
 }
 
-nlohmann::ordered_json describeLayer(int bandCount, const CompressedLayer& layer,
-                                     const AttributeRange& range) {
+nlohmann::ordered_json describeLayer(const LayerDescription& description) {
+    const CompressedLayer& layer = description.layer;
     nlohmann::ordered_json object;
     object["transport"] = transportName(layer.transport);
     object["channels"] = layer.channelCount;
-    object["encoding"] = encodingName(layer.table.encoding);
-    object["attributes"] = {{"first", range.first}, {"count", range.count}};
-    if (layer.table.encoding != TransferEncoding::float32) {
-        object["scale"] = layer.table.scale;
-        object["bias"] = layer.table.bias;
-    }
-    object["checksum"] = computeLayerChecksum(bandCount, layer, range);
+    object["encoding"] = encodingText(layer);
+    object["attributes"] = {{"first", description.range.first}, {"count", description.range.count}};
+    if (layer.bases)
+        object["clusters"] = describeClusters(layer, description.vectors);
+    else
+        describeRanges(layer.table, object);
+    object["checksum"] = computeLayerChecksum(description);
     return object;
 }
 
@@ -83,51 +96,57 @@ Provenance parseProvenance(const JsonCursor& object) {
     return provenance;
 }
 
-/// Reads a list of floats, each of a size that a coefficient can have.
-std::vector<float> parseCoefficients(const JsonCursor& list, std::size_t count) {
-    if (list.size() != count) list.reject("must have " + std::to_string(count) + " numbers");
-    std::vector<float> values(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const double number = list[i].toNumber();
-        if (!(std::abs(number) <= kMaxCoefficient)) list[i].reject("is beyond ±100");
-        values[i] = static_cast<float>(number);
-    }
-    return values;
-}
-
-void parseRanges(const JsonCursor& object, std::size_t count, CompressedLayer& layer) {
-    layer.table.scale = parseCoefficients(object.at("scale"), count);
-    layer.table.bias = parseCoefficients(object.at("bias"), count);
-    for (std::size_t i = 0; i < count; ++i)
-        if (layer.table.scale[i] < 0.0f) object.at("scale")[i].reject("is negative");
-}
-
-/// One member of the header's list of layers; passed over if a newer minor
-/// version names a kind not known here.
-void parseLayer(const JsonCursor& object, bool isNewer, AssetHeader& header) {
+/// The transport and the encodings of a layer; nothing where a newer minor version names one that
+/// is not known here.
+std::optional<CompressedLayer> parseKind(const JsonCursor& object, int minorVersion) {
+    const JsonCursor kind = object.at("encoding");
+    const bool hasClusters = kind.toString() == kClusters;
+    if (hasClusters && minorVersion < kClustersSinceMinor)
+        kind.reject("is none that a file of version 1.0 can have");
+    const JsonCursor ofTable = hasClusters ? object.at("clusters").at("weights") : kind;
+    const JsonCursor ofVectors = hasClusters ? object.at("clusters").at("encoding") : kind;
     const auto transport = parseTransport(object.at("transport").toString());
-    const auto encoding = parseEncoding(object.at("encoding").toString());
-    if (isNewer && (!transport || !encoding)) return;
+    const auto tableEncoding = parseEncoding(ofTable.toString());
+    const auto vectorsEncoding = parseEncoding(ofVectors.toString());
+    const bool isKnown = transport && tableEncoding && vectorsEncoding;
+    if (!isKnown && minorVersion > kAssetVersionMinor) return std::nullopt;
     if (!transport) object.at("transport").reject("is no kind of transport");
-    if (!encoding) object.at("encoding").reject("is no encoding");
+    if (!tableEncoding) ofTable.reject("is no encoding");
+    if (!vectorsEncoding) ofVectors.reject("is no encoding");
 
     CompressedLayer layer;
     layer.transport = *transport;
-    layer.table.encoding = *encoding;
+    layer.table.encoding = *tableEncoding;
+    if (hasClusters) layer.bases.emplace().vectors.encoding = *vectorsEncoding;
+    return layer;
+}
+
+/// One member of the header's list of layers.
+void parseLayer(const JsonCursor& object, int minorVersion, AssetHeader& header) {
+    std::optional<CompressedLayer> known = parseKind(object, minorVersion);
+    if (!known) return;
+    CompressedLayer layer = *std::move(known);
     layer.channelCount = parseCount(object.at("channels"));
     if (layer.channelCount != 1 && layer.channelCount != 3)
         object.at("channels").reject("must be 1 or 3");
-    if (layer.table.encoding != TransferEncoding::float32)
-        parseRanges(object, coefficientsPerReceiver(header.bandCount, layer.channelCount), layer);
+    const std::size_t dimension = coefficientsPerReceiver(header.bandCount, layer.channelCount);
+    VectorsPlace vectors;
+    if (layer.bases)
+        vectors = parseClusters(object.at("clusters"), dimension, layer);
+    else
+        parseRanges(object, dimension, layer.table);
 
     const JsonCursor attributes = object.at("attributes");
     const AttributeRange range{attributes.at("first").toCount(), attributes.at("count").toCount()};
     if (range.count != countAttributes(header.bandCount, layer))
-        attributes.at("count").reject("does not fit the bands and channels");
-    if (object.at("checksum").toString() != computeLayerChecksum(header.bandCount, layer, range))
+        attributes.at("count").reject(layer.bases ? "does not fit the components of the clusters"
+                                                  : "does not fit the bands and channels");
+    if (object.at("checksum").toString() !=
+        computeLayerChecksum({header.bandCount, layer, range, vectors}))
         object.reject("is damaged: its checksum differs");
     header.layers.push_back(std::move(layer));
     header.ranges.push_back(range);
+    header.vectors.push_back(std::move(vectors));
 }
 
 /// Demands that layers are of different kinds, ascending, and share no attribute.
@@ -143,9 +162,8 @@ void checkLayers(const JsonCursor& list, const AssetHeader& header) {
     }
 }
 
-/// Whether the file's minor version is newer than ours. @throws Error
-/// unsupported for another major version
-bool parseVersion(const JsonCursor& cursor) {
+/// The file's minor version. @throws Error  unsupported for another major version
+int parseVersion(const JsonCursor& cursor) {
     const std::string& text = cursor.toString();
     int major = 0;
     int minor = 0;
@@ -161,7 +179,7 @@ bool parseVersion(const JsonCursor& cursor) {
                     "has radiance transfer of version " + text +
                         ", and this library reads version " + formatVersion(),
                     {}, "use the OpenPRT that made it, or bake the scene again");
-    return minor > kAssetVersionMinor;
+    return minor;
 }
 
 /// Demands the one value that this version knows.
@@ -179,15 +197,17 @@ std::string attributeSemantic(std::size_t index) {
 }
 
 AccessorInfo attributeInfo(const CompressedLayer& layer, std::size_t vertexCount) {
-    AccessorInfo info{vertexCount, static_cast<int>(kCoefficientsPerAttribute)};
-    if (layer.table.encoding == TransferEncoding::unorm16) info.type = ComponentType::uint16;
-    if (layer.table.encoding == TransferEncoding::unorm8) info.type = ComponentType::uint8;
-    info.normalized = layer.table.encoding != TransferEncoding::float32;
-    return info;
+    return storedInfo(layer.table.encoding, vertexCount,
+                      static_cast<int>(kCoefficientsPerAttribute));
+}
+
+std::size_t countNumbers(int bandCount, const CompressedLayer& layer) {
+    return layer.bases ? 1 + layer.bases->componentCount()
+                       : coefficientsPerReceiver(bandCount, layer.channelCount);
 }
 
 std::size_t countAttributes(int bandCount, const CompressedLayer& layer) {
-    return CoefficientTable::countPanels(coefficientsPerReceiver(bandCount, layer.channelCount));
+    return CoefficientTable::countPanels(countNumbers(bandCount, layer));
 }
 
 std::vector<AttributeRange> arrangeAttributes(const CompressedTransfer& transfer) {
@@ -198,6 +218,17 @@ std::vector<AttributeRange> arrangeAttributes(const CompressedTransfer& transfer
         first += ranges.back().count;
     }
     return ranges;
+}
+
+std::vector<VectorsPlace> arrangeVectors(const CompressedTransfer& transfer) {
+    std::vector<VectorsPlace> places;
+    std::size_t accessor = 0;
+    for (const CompressedLayer& layer : transfer.layers) {
+        VectorsPlace& place = places.emplace_back();
+        if (layer.bases)
+            place = {accessor++, formatChecksum(computeCrc32(packVectors(*layer.bases)))};
+    }
+    return places;
 }
 
 std::string formatHeader(const CompressedTransfer& transfer, std::size_t vertexCount,
@@ -214,16 +245,17 @@ std::string formatHeader(const CompressedTransfer& transfer, std::size_t vertexC
         {"seed", std::to_string(provenance.seed)}, {"isa", provenance.isa}};
     header["layers"] = nlohmann::ordered_json::array();
     const std::vector<AttributeRange> ranges = arrangeAttributes(transfer);
+    const std::vector<VectorsPlace> vectors = arrangeVectors(transfer);
     for (std::size_t i = 0; i < ranges.size(); ++i)
         header["layers"].push_back(
-            describeLayer(transfer.bandCount, transfer.layers[i], ranges[i]));
+            describeLayer({transfer.bandCount, transfer.layers[i], ranges[i], vectors[i]}));
     return header.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 AssetHeader parseHeader(const std::string& json) {
     const gltf::Json parsed = gltf::parseJson(json);
     const JsonCursor root(parsed, kAssetExtension);
-    const bool isNewer = parseVersion(root.at("version"));
+    const int minorVersion = parseVersion(root.at("version"));
     requireValue(root, "convention", std::string(shConventionName(ShConvention::cs)));
     requireValue(root, "quantity", kQuantity);
 
@@ -235,7 +267,7 @@ AssetHeader parseHeader(const std::string& json) {
     header.provenance = parseProvenance(root.at("provenance"));
     const JsonCursor layers = root.at("layers");
     for (std::size_t i = 0; i < layers.size(); ++i)
-        parseLayer(layers[i], isNewer, header);
+        parseLayer(layers[i], minorVersion, header);
     checkLayers(layers, header);
     const JsonCursor checksums = root.at("checksums");
     for (std::size_t i = 0; i < checksums.size(); ++i)

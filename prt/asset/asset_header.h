@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "prt/asset/asset.h"
+#include "prt/asset/clusters.h"
 #include "prt/gltf/gltf_document.h"
 
 namespace prt {
 
 inline constexpr const char* kAssetExtension = "OPENPRT_radiance_transfer";
 
-/// The attributes _PRT_<first>, … that hold a layer, four coefficients each.
+/// The attributes _PRT_<first>, … that hold a layer, four numbers each.
 struct AttributeRange {
     std::size_t first = 0;
     std::size_t count = 0;
@@ -24,14 +25,11 @@ struct AssetHeader {
     Provenance provenance;
     std::vector<CompressedLayer> layers;  ///< without data
     std::vector<AttributeRange> ranges;   ///< one a layer
+    std::vector<VectorsPlace> vectors;    ///< one a layer, of use where it has clusters
     std::vector<std::string> checksums;   ///< one a buffer view
 };
 
 inline constexpr std::size_t kCoefficientsPerAttribute = CoefficientTable::kPanelWidth;
-
-/// No stored coefficient is larger: it is beyond any that reflectances up to 1 can give, 1.23
-/// (docs/format.md), and far from where sums overflow.
-inline constexpr float kMaxCoefficient = 100.0f;
 
 /// "_PRT_<index>".
 std::string attributeSemantic(std::size_t index);
@@ -39,11 +37,17 @@ std::string attributeSemantic(std::size_t index);
 /// The form of each attribute of a layer.
 AccessorInfo attributeInfo(const CompressedLayer& layer, std::size_t vertexCount);
 
-/// How many attributes a layer takes: its coefficients are padded to a multiple of four.
+/// How many numbers a layer stores for a vertex: coefficients, or a cluster and its weights.
+std::size_t countNumbers(int bandCount, const CompressedLayer& layer);
+
+/// How many attributes a layer takes: its numbers are padded to a multiple of four.
 std::size_t countAttributes(int bandCount, const CompressedLayer& layer);
 
 /// Where each layer's attributes stand when they follow one another.
 std::vector<AttributeRange> arrangeAttributes(const CompressedTransfer& transfer);
+
+/// Where each layer's vectors stand: in the accessors 0, 1, … of the file.
+std::vector<VectorsPlace> arrangeVectors(const CompressedTransfer& transfer);
 
 /// The JSON text, without the checksums of buffer views, which the glTF writer adds.
 ///

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <map>
 #include <new>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "prt/asset/asset_header.h"
+#include "prt/asset/table_header.h"
 #include "prt/base/checksum.h"
 #include "prt/base/error.h"
 #include "prt/base/file.h"
@@ -80,9 +80,7 @@ class BoundAttributes {
     std::size_t find(const std::string& semantic, const AccessorInfo& expected) const {
         const std::optional<std::size_t> accessor = document_.attributeAccessor(id_, semantic);
         if (!accessor) reject(place_ + " lacks " + semantic);
-        const AccessorInfo info = document_.describeAccessor(*accessor);
-        if (info.count != expected.count || info.componentCount != expected.componentCount ||
-            info.type != expected.type || info.normalized != expected.normalized)
+        if (document_.describeAccessor(*accessor) != expected)
             reject(semantic + " of " + place_ + " is not of the form that the asset's header says");
         return *accessor;
     }
@@ -107,7 +105,7 @@ void checkGeometry(const BoundAttributes& attributes, const Mesh& mesh) {
     }
 }
 
-/// Demands that each vertex has zeros beyond its last coefficient.
+/// Demands that each vertex has zeros beyond its last number.
 void checkPadding(const CoefficientTable& data) {
     const std::size_t width = kCoefficientsPerAttribute * data.elementBytes();
     const std::size_t last = data.panelCount() - 1;
@@ -116,18 +114,15 @@ void checkPadding(const CoefficientTable& data) {
     for (std::size_t begin = 0; begin < panel.size(); begin += width)
         for (const std::byte b : panel.subspan(begin + usedBytes, width - usedBytes))
             if (b != std::byte{0})
-                reject("holds a number other than 0 beyond the last coefficient");
+                reject("holds a number other than 0 beyond the last of a vertex");
 }
 
-/// Demands that floats are finite and of a size that transfer can have;
-/// quantised ones are so by their ranges.
-void checkCoefficients(const CompressedLayer& layer) {
-    if (layer.table.encoding != TransferEncoding::float32) return;
-    for (std::size_t part = 0; part < layer.table.numbers.panelCount(); ++part)
-        for (const float value : floatPanel(layer.table.numbers, part))
-            if (!(std::abs(value) <= kMaxCoefficient))
-                reject("holds a coefficient beyond ±" +
-                       std::to_string(static_cast<int>(kMaxCoefficient)));
+void checkNumbers(const CompressedLayer& layer) {
+    checkPadding(layer.table.numbers);
+    if (layer.bases)
+        checkWeights(layer);
+    else
+        checkCoefficients(layer.table);
 }
 
 /// Reads the rows of a layer that belong to a mesh, whose first vertex has this number.
@@ -149,11 +144,10 @@ void allocateLayers(const GltfDocument& document, CompressedTransfer& transfer) 
         const std::size_t vertexBytes = countAttributes(transfer.bandCount, layer) *
                                         kCoefficientsPerAttribute * coefficientBytes;
         if (transfer.receiverCount > bytesLeft / vertexBytes)
-            reject("has more vertices than coefficients");
+            reject("has more vertices than numbers for them");
         bytesLeft -= transfer.receiverCount * vertexBytes;
         layer.table.numbers = CoefficientTable(
-            transfer.receiverCount, coefficientsPerReceiver(transfer.bandCount, layer.channelCount),
-            coefficientBytes);
+            transfer.receiverCount, countNumbers(transfer.bandCount, layer), coefficientBytes);
     }
 }
 
@@ -165,6 +159,9 @@ CompressedTransfer readTransfer(const GltfDocument& document, const FlattenedGlt
     transfer.receiverCount = scene.vertexCount();
     transfer.layers = std::move(header.layers);
     allocateLayers(document, transfer);
+    for (std::size_t i = 0; i < transfer.layers.size(); ++i)
+        if (transfer.layers[i].bases)
+            readVectors(document, header.vectors[i], transfer.bandCount, transfer.layers[i]);
     transfer.receiverOfVertex.resize(transfer.receiverCount);
     std::iota(transfer.receiverOfVertex.begin(), transfer.receiverOfVertex.end(), 0u);
 
@@ -176,10 +173,8 @@ CompressedTransfer readTransfer(const GltfDocument& document, const FlattenedGlt
             readRows(attributes, header.ranges[i], offsets[mesh], scene.meshes[mesh].vertexCount(),
                      transfer.layers[i]);
     }
-    for (const CompressedLayer& layer : transfer.layers) {
-        checkPadding(layer.table.numbers);
-        checkCoefficients(layer);
-    }
+    for (const CompressedLayer& layer : transfer.layers)
+        checkNumbers(layer);
     return transfer;
 }
 

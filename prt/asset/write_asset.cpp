@@ -39,6 +39,22 @@ std::vector<GlbAccessor> makeAttributes(const CompressedTransfer& transfer, Rece
     return attributes;
 }
 
+/// The vectors of clusters, in the order of arrangeVectors.
+std::vector<GlbAccessor> makeAccessors(const CompressedTransfer& transfer) {
+    std::vector<GlbAccessor> accessors;
+    for (const CompressedLayer& layer : transfer.layers) {
+        if (!layer.bases) continue;
+        const auto write = [&bases = *layer.bases](std::span<std::byte> values) {
+            std::ranges::copy(packVectors(bases), values.begin());
+        };
+        const std::size_t dimension =
+            coefficientsPerReceiver(transfer.bandCount, layer.channelCount);
+        accessors.push_back(
+            {"the vectors of clusters", vectorsInfo(*layer.bases, dimension), write});
+    }
+    return accessors;
+}
+
 void checkTransfer(const Scene& scene, const CompressedTransfer& transfer) {
     PRT_ASSERT(transfer.receiverOfVertex.size() == scene.vertexCount(),
                "each vertex of the scene has a receiver");
@@ -46,8 +62,12 @@ void checkTransfer(const Scene& scene, const CompressedTransfer& transfer) {
         std::all_of(transfer.receiverOfVertex.begin(), transfer.receiverOfVertex.end(),
                     [&](std::uint32_t receiver) { return receiver < transfer.receiverCount; }),
         "each vertex's receiver is one of the transfer");
-    for (const CompressedLayer& layer : transfer.layers)
+    for (const CompressedLayer& layer : transfer.layers) {
         PRT_ASSERT(isComplete(transfer, layer), "each layer has all coefficients of all receivers");
+        if (!layer.bases) continue;
+        PRT_ASSERT(layer.table.scale.empty(), "weights have no ranges of their own");
+        checkClusterCounts(layer);
+    }
 }
 
 /// Meshes without a triangle are not written.
@@ -64,6 +84,7 @@ GlbExtension makeExtension(const Scene& scene, const CompressedTransfer& transfe
     GlbExtension extension;
     extension.name = kAssetExtension;
     extension.rootJson = formatHeader(transfer, countWrittenVertices(scene), provenance);
+    extension.accessors = makeAccessors(transfer);
     const std::vector<std::size_t> offsets = vertexOffsets(scene);
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
         extension.meshJson.push_back("{}");

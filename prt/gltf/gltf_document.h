@@ -21,6 +21,8 @@ struct AccessorInfo {
     int componentCount = 1;  ///< 1 … 16; 0 for a type that glTF 2.0 does not know
     ComponentType type = ComponentType::float32;
     bool normalized = false;
+
+    bool operator==(const AccessorInfo&) const = default;
 };
 
 /// One primitive of the file, before instances are flattened.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <numeric>
 #include <string>
@@ -34,15 +35,34 @@ float coefficient(TransferEncoding encoding, std::size_t vertex, std::size_t col
 }
 
 template <class Stored>
-CoefficientTable makeStored(std::size_t columnCount, float unit) {
+CoefficientTable makeStored(std::size_t rowCount, std::size_t columnCount, float unit) {
     std::vector<Stored> numbers;
-    for (std::size_t vertex = 0; vertex < kVertexCount; ++vertex)
+    for (std::size_t vertex = 0; vertex < rowCount; ++vertex)
         for (std::size_t column = 0; column < columnCount; ++column)
             numbers.push_back(
                 static_cast<Stored>(static_cast<float>(storedNumber(vertex, column)) * unit));
     return makeTable(columnCount, numbers);
 }
 
+/// Rows of coefficients as they are stored.
+StoredTable makeGoldenTable(TransferEncoding encoding, std::size_t rowCount,
+                            std::size_t columnCount) {
+    StoredTable table{.encoding = encoding};
+    if (encoding == TransferEncoding::float32) {
+        table.numbers = makeStored<float>(rowCount, columnCount, 1.0f / 1024.0f);
+        return table;
+    }
+    for (std::size_t column = 0; column < columnCount; ++column) {
+        table.scale.push_back(0.5f + static_cast<float>(column) / 64.0f);
+        table.bias.push_back(-0.25f);
+    }
+    table.numbers = encoding == TransferEncoding::unorm16
+                        ? makeStored<std::uint16_t>(rowCount, columnCount, 1.0f)
+                        : makeStored<std::uint8_t>(rowCount, columnCount, 1.0f);
+    return table;
+}
+
+/// Version 1.0.
 CompressedTransfer makeGoldenTransfer(TransferEncoding encoding) {
     CompressedTransfer transfer{kBandCount, kVertexCount, {}, {}};
     transfer.receiverOfVertex.resize(kVertexCount);
@@ -51,22 +71,57 @@ CompressedTransfer makeGoldenTransfer(TransferEncoding encoding) {
         CompressedLayer layer;
         layer.transport = transport;
         layer.channelCount = transport == Transport::interreflected ? 3 : 1;
-        layer.table.encoding = encoding;
-        const std::size_t columnCount = coefficientsPerReceiver(kBandCount, layer.channelCount);
-        if (encoding == TransferEncoding::float32) {
-            layer.table.numbers = makeStored<float>(columnCount, 1.0f / 1024.0f);
-        } else {
-            for (std::size_t column = 0; column < columnCount; ++column) {
-                layer.table.scale.push_back(0.5f + static_cast<float>(column) / 64.0f);
-                layer.table.bias.push_back(-0.25f);
-            }
-            layer.table.numbers = encoding == TransferEncoding::unorm16
-                                      ? makeStored<std::uint16_t>(columnCount, 1.0f)
-                                      : makeStored<std::uint8_t>(columnCount, 1.0f);
-        }
+        layer.table = makeGoldenTable(encoding, kVertexCount,
+                                      coefficientsPerReceiver(kBandCount, layer.channelCount));
         transfer.layers.push_back(std::move(layer));
     }
     return transfer;
+}
+
+// Version 1.1: the second layer has three clusters, which vertices are in by turns.
+const std::vector<std::uint32_t> kComponentCounts = {2, 0, 1};
+constexpr std::array<std::size_t, 3> kFirstVectors = {0, 3, 4};
+constexpr std::size_t kVectorCount = 6;
+
+template <class Stored>
+CoefficientTable makeWeights(float unit) {
+    std::vector<Stored> numbers;
+    for (std::size_t vertex = 0; vertex < kVertexCount; ++vertex) {
+        numbers.push_back(static_cast<Stored>(vertex % 3));
+        for (std::size_t p = 1; p <= 2; ++p) {
+            const auto number = static_cast<float>(storedNumber(vertex, p));
+            const bool isThere = p <= kComponentCounts[vertex % 3];
+            numbers.push_back(static_cast<Stored>(isThere ? number * unit : 0.0f));
+        }
+    }
+    return makeTable(3, numbers);
+}
+
+CompressedTransfer makeGoldenClusters(TransferEncoding encoding) {
+    CompressedTransfer transfer = makeGoldenTransfer(encoding);
+    CompressedLayer& layer = transfer.layers[1];
+    const std::size_t dimension = layer.table.numbers.columnCount();
+    layer.bases = {kComponentCounts, makeGoldenTable(encoding, kVectorCount, dimension)};
+    layer.table = {.encoding = encoding};
+    if (encoding == TransferEncoding::float32)
+        layer.table.numbers = makeWeights<float>(1.0f / 256.0f);
+    else if (encoding == TransferEncoding::unorm16)
+        layer.table.numbers = makeWeights<std::uint16_t>(257.0f);
+    else
+        layer.table.numbers = makeWeights<std::uint8_t>(1.0f);
+    return transfer;
+}
+
+/// A coefficient of a layer with those clusters.
+double coefficientOfClusters(TransferEncoding encoding, std::size_t vertex, std::size_t column) {
+    const std::size_t cluster = vertex % 3;
+    double sum = coefficient(encoding, kFirstVectors[cluster], column);
+    for (std::size_t p = 1; p <= kComponentCounts[cluster]; ++p) {
+        const double largest = encoding == TransferEncoding::float32 ? 256.0 : 255.0;
+        sum += storedNumber(vertex, p) / largest *
+               coefficient(encoding, kFirstVectors[cluster] + p, column);
+    }
+    return sum;
 }
 
 fs::path goldenPath(const std::string& version, TransferEncoding encoding) {
@@ -74,43 +129,67 @@ fs::path goldenPath(const std::string& version, TransferEncoding encoding) {
            (version + "-" + std::string(encodingName(encoding)) + ".prt.glb");
 }
 
-class GoldenAsset : public testing::TestWithParam<std::tuple<const char*, TransferEncoding>> {};
-
-TEST_P(GoldenAsset, OfEveryReleasedVersionIsRead) {
-    const auto& [version, encoding] = GetParam();
-    const Asset asset = readAsset(goldenPath(version, encoding));
+/// The scene of all of them, and how it was baked.
+Asset readGolden(const std::string& version, TransferEncoding encoding) {
+    Asset asset = readAsset(goldenPath(version, encoding));
     EXPECT_EQ(asset.provenance.generator, "OpenPRT 0.1.0");
     EXPECT_EQ(asset.provenance.seed, 18446744073709551615u);
     const Scene scene = test::makeTwoGrids();
-    ASSERT_EQ(asset.scene.meshes.size(), 2u);
-    for (std::size_t mesh = 0; mesh < 2; ++mesh) {
+    EXPECT_EQ(asset.scene.meshes.size(), 2u);
+    for (std::size_t mesh = 0; mesh < asset.scene.meshes.size(); ++mesh) {
         EXPECT_EQ(asset.scene.meshes[mesh].positions, scene.meshes[mesh].positions);
-        ASSERT_EQ(asset.scene.meshes[mesh].normals.size(), scene.meshes[mesh].normals.size());
-        for (std::size_t i = 0; i < scene.meshes[mesh].normals.size(); ++i)
-            EXPECT_LT(
-                (asset.scene.meshes[mesh].normals[i] - scene.meshes[mesh].normals[i]).length(),
-                1e-6f);  // normalised as they are read
         EXPECT_EQ(asset.scene.meshes[mesh].indices, scene.meshes[mesh].indices);
+        const std::vector<Vec3f>& normals = asset.scene.meshes[mesh].normals;
+        EXPECT_EQ(normals.size(), scene.meshes[mesh].normals.size());
+        for (std::size_t i = 0; i < normals.size(); ++i)
+            EXPECT_LT((normals[i] - scene.meshes[mesh].normals[i]).length(),
+                      1e-6f);  // normalised as they are read
     }
     EXPECT_EQ(asset.transfer.bandCount, kBandCount);
-    ASSERT_EQ(asset.transfer.receiverCount, kVertexCount);
-    ASSERT_EQ(asset.transfer.layers.size(), 2u);
-    for (const CompressedLayer& layer : asset.transfer.layers) {
-        EXPECT_EQ(layer.table.encoding, encoding);
-        const std::vector<float> values = expandLayer(layer);
-        const std::size_t columnCount = coefficientsPerReceiver(kBandCount, layer.channelCount);
-        ASSERT_EQ(values.size(), kVertexCount * columnCount);
-        for (std::size_t i = 0; i < values.size(); ++i)
-            EXPECT_EQ(values[i], coefficient(encoding, i / columnCount, i % columnCount)) << i;
-    }
+    EXPECT_EQ(asset.transfer.receiverCount, kVertexCount);
+    return asset;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, GoldenAsset,
-    testing::Combine(testing::Values("1.0"),
-                     testing::Values(TransferEncoding::float32, TransferEncoding::unorm16,
-                                     TransferEncoding::unorm8)),
-    [](const auto& parameter) { return std::string(encodingName(std::get<1>(parameter.param))); });
+void expectCoefficients(const CompressedLayer& layer, TransferEncoding encoding) {
+    EXPECT_EQ(layer.table.encoding, encoding);
+    const std::vector<float> values = expandLayer(layer);
+    const std::size_t columnCount = coefficientsPerReceiver(kBandCount, layer.channelCount);
+    ASSERT_EQ(values.size(), kVertexCount * columnCount);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_EQ(values[i], coefficient(encoding, i / columnCount, i % columnCount)) << i;
+}
+
+class GoldenAsset : public testing::TestWithParam<TransferEncoding> {};
+
+TEST_P(GoldenAsset, OfVersion10IsRead) {
+    const Asset asset = readGolden("1.0", GetParam());
+    ASSERT_EQ(asset.transfer.layers.size(), 2u);
+    for (const CompressedLayer& layer : asset.transfer.layers)
+        expectCoefficients(layer, GetParam());
+}
+
+TEST_P(GoldenAsset, OfVersion11IsRead) {
+    // expandLayer rounds weights, vectors and their sum to floats.
+    constexpr double kRounding = 2e-7;
+    const Asset asset = readGolden("1.1", GetParam());
+    ASSERT_EQ(asset.transfer.layers.size(), 2u);
+    expectCoefficients(asset.transfer.layers[0], GetParam());
+    const CompressedLayer& layer = asset.transfer.layers[1];
+    ASSERT_TRUE(layer.bases);
+    EXPECT_EQ(layer.table.encoding, GetParam());
+    EXPECT_EQ(layer.bases->vectors.encoding, GetParam());
+    const std::vector<float> values = expandLayer(layer);
+    ASSERT_EQ(values.size(), kVertexCount * 12);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_NEAR(values[i], coefficientOfClusters(GetParam(), i / 12, i % 12), kRounding) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GoldenAsset,
+                         testing::Values(TransferEncoding::float32, TransferEncoding::unorm16,
+                                         TransferEncoding::unorm8),
+                         [](const auto& parameter) {
+                             return std::string(encodingName(parameter.param));
+                         });
 
 TEST(GoldenAssets, DISABLED_WriteTheFilesOfThisVersion) {
     const std::string version =
@@ -118,7 +197,7 @@ TEST(GoldenAssets, DISABLED_WriteTheFilesOfThisVersion) {
     for (const TransferEncoding encoding :
          {TransferEncoding::float32, TransferEncoding::unorm16, TransferEncoding::unorm8})
         writeAsset(goldenPath(version, encoding), test::makeTwoGrids(),
-                   makeGoldenTransfer(encoding), test::makeProvenance());
+                   makeGoldenClusters(encoding), test::makeProvenance());
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct GlbFile {
         return std::span(binary).subspan(offset, length);
     }
 
-  private:
+    /// A size or an index. @throws std::out_of_range  if it is none
     static std::size_t readSize(const nlohmann::json& number) {
         if (!number.is_number_unsigned()) throw std::out_of_range("this is no size");
         return number.get<std::size_t>();
