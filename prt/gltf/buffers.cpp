@@ -2,6 +2,9 @@
 
 #include <string>
 
+#include "prt/base/error.h"
+#include "prt/gltf/meshopt.h"
+
 namespace prt::gltf {
 namespace {
 
@@ -18,11 +21,23 @@ struct Buffer {
     std::size_t byteLength = 0;
 };
 
+std::optional<JsonCursor> findMeshopt(const JsonCursor& object) {
+    const std::optional<JsonCursor> extensions = object.find("extensions");
+    return extensions ? extensions->find(kMeshoptExtension) : std::nullopt;
+}
+
+/// Whether a buffer is there for readers that do not know the encoding.
+bool isFallback(const JsonCursor& buffer) {
+    const std::optional<JsonCursor> meshopt = findMeshopt(buffer);
+    return meshopt && meshopt->boolOr("fallback", false);
+}
+
 /// @param loaded  takes the bytes unless they are the file's own
 Buffer loadBuffer(const JsonCursor& buffer, bool isFirst, const GltfFile& file,
                   ResourceLoader& loader, std::vector<std::byte>& loaded) {
     const std::size_t byteLength = buffer.at("byteLength").toCount();
     std::span<const std::byte> bytes;
+    if (isFallback(buffer)) return {bytes, byteLength};
     if (const std::optional<JsonCursor> uri = buffer.find("uri")) {
         loaded = loader.load(*uri);
         bytes = loaded;
@@ -39,13 +54,32 @@ Buffer loadBuffer(const JsonCursor& buffer, bool isFirst, const GltfFile& file,
     return {bytes.first(byteLength), byteLength};
 }
 
-BufferView parseView(const JsonCursor& view, const std::vector<Buffer>& buffers) {
+/// Where a view, or the encoded bytes of one, lies.
+struct BufferRange {
+    const Buffer* buffer = nullptr;
+    std::size_t byteOffset = 0;
+    std::size_t byteLength = 0;
+
+    /// None in a placeholder.
+    std::span<const std::byte> bytes() const {
+        return buffer->bytes.empty() ? buffer->bytes
+                                     : buffer->bytes.subspan(byteOffset, byteLength);
+    }
+};
+
+BufferRange parseRange(const JsonCursor& view, const std::vector<Buffer>& buffers) {
     const Buffer& buffer = buffers[view.at("buffer").toIndex(buffers.size(), "buffers")];
     const std::size_t byteOffset = view.countOr("byteOffset", 0);
     const std::size_t byteLength = view.at("byteLength").toCount();
     if (byteLength == 0 || byteOffset > buffer.byteLength ||
         byteLength > buffer.byteLength - byteOffset)
         view.reject("does not lie inside its buffer");
+    return {&buffer, byteOffset, byteLength};
+}
+
+BufferView parseView(const JsonCursor& view, const std::vector<Buffer>& buffers) {
+    const BufferRange range = parseRange(view, buffers);
+    const std::size_t byteLength = range.byteLength;
 
     std::size_t byteStride = 0;
     if (const std::optional<JsonCursor> stride = view.find("byteStride")) {
@@ -56,10 +90,41 @@ BufferView parseView(const JsonCursor& view, const std::vector<Buffer>& buffers)
         if (byteStride > byteLength) stride->reject("is larger than its buffer view");
         if (view.countOr("target", 0) == kIndexTarget) stride->reject("is set for indices");
     }
-    const bool isPlaceholder = buffer.bytes.empty();
-    return {isPlaceholder ? buffer.bytes : buffer.bytes.subspan(byteOffset, byteLength), byteLength,
-            byteOffset, byteStride};
+    return {range.bytes(), range.bytes(), byteLength, range.byteOffset, byteStride};
 }
+
+/// Decodes views while the bytes that they ask for can be there.
+class MeshoptDecoder {
+  public:
+    explicit MeshoptDecoder(const std::vector<Buffer>& buffers) : buffers_(buffers) {
+        for (const Buffer& buffer : buffers)
+            bytesLeft_ += buffer.bytes.size() * kMaxMeshoptRatio;
+    }
+
+    /// @param decoded  takes the bytes
+    void decode(const JsonCursor& object, BufferView& view, std::vector<std::byte>& decoded) {
+        const MeshoptView encoding = parseMeshoptView(object, view.byteLength);
+        if (view.byteStride != 0 && view.byteStride != encoding.byteStride)
+            object.at("byteStride").reject("is another than that of its buffer view");
+        const BufferRange range = parseRange(object, buffers_);
+        if (range.bytes().empty()) object.reject("lies in a buffer without bytes");
+        if (view.byteLength > bytesLeft_)
+            throw Error(ErrorCode::limitExceeded,
+                        object.place() + " asks for more bytes than the buffers can hold");
+        bytesLeft_ -= view.byteLength;
+        try {
+            decoded = decodeMeshopt(encoding, range.bytes());
+        } catch (const Error& error) {
+            object.reject(error.what());
+        }
+        view.bytes = decoded;
+        view.storedBytes = range.bytes();
+    }
+
+  private:
+    const std::vector<Buffer>& buffers_;
+    std::size_t bytesLeft_ = 0;
+};
 
 }  // namespace
 
@@ -69,8 +134,13 @@ Buffers loadBuffers(const JsonCursor& root, const GltfFile& file, ResourceLoader
         std::vector<std::byte>& loaded = buffers.loaded.emplace_back();
         return loadBuffer(buffer, buffers.loaded.size() == 1, file, loader, loaded);
     });
-    buffers.views = parseEach(root, "bufferViews",
-                              [&](const JsonCursor& view) { return parseView(view, parsed); });
+    MeshoptDecoder decoder(parsed);
+    buffers.views = parseEach(root, "bufferViews", [&](const JsonCursor& view) {
+        BufferView result = parseView(view, parsed);
+        if (const std::optional<JsonCursor> meshopt = findMeshopt(view))
+            decoder.decode(*meshopt, result, buffers.decoded.emplace_back());
+        return result;
+    });
     return buffers;
 }
 

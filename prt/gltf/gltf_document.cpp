@@ -126,6 +126,11 @@ std::span<const std::byte> GltfDocument::bufferViewBytes(std::size_t bufferView)
     return content_->model.buffers.views[bufferView].bytes;
 }
 
+std::span<const std::byte> GltfDocument::storedViewBytes(std::size_t bufferView) const {
+    PRT_ASSERT(bufferView < bufferViewCount(), "the buffer view is one of the file");
+    return content_->model.buffers.views[bufferView].storedBytes;
+}
+
 std::size_t GltfDocument::trailingByteCount() const {
     return content_->model.file.trailingByteCount;
 }

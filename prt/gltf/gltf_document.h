@@ -78,6 +78,8 @@ class GltfDocument {
     std::size_t bufferViewCount() const;
     /// None where the buffer is a placeholder, with neither a URI nor a binary chunk.
     std::span<const std::byte> bufferViewBytes(std::size_t bufferView) const;
+    /// The same as the file has them: fewer where EXT_meshopt_compression encodes them.
+    std::span<const std::byte> storedViewBytes(std::size_t bufferView) const;
 
     /// The bytes after the end that a binary glTF's header states.
     std::size_t trailingByteCount() const;

@@ -22,10 +22,10 @@ struct GltfLimits {
 /// Reads a .gltf or .glb as one flattened scene in world space [glTF 2.0].
 ///
 /// Triangles, strips and fans; sparse, interleaved and normalised accessors; KHR_mesh_quantization;
-/// KHR_texture_transform; node hierarchies with any invertible transform (a mirrored node's
-/// triangles are turned so that they stay counter-clockwise); cameras; embedded and neighbouring
-/// buffers and images. Missing normals are computed. Images stay encoded; only those that a
-/// material's base colour or emission uses are kept.
+/// EXT_meshopt_compression; KHR_texture_transform; node hierarchies with any invertible transform
+/// (a mirrored node's triangles are turned so that they stay counter-clockwise); cameras; embedded
+/// and neighbouring buffers and images. Missing normals are computed. Images stay encoded; only
+/// those that a material's base colour or emission uses are kept.
 ///
 /// Left out, with a warning: points and lines, animation, skins, morph targets, cameras that are
 /// no pinhole, optional extensions, and nodes whose transform has no inverse. Factors and vertex

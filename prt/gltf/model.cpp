@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "prt/base/error.h"
+#include "prt/gltf/meshopt.h"
 
 namespace prt::gltf {
 namespace {
@@ -13,8 +14,9 @@ namespace {
 constexpr std::string_view kQuantization = "KHR_mesh_quantization";
 
 // Extensions that are read, or that change neither geometry nor base colour.
-constexpr std::array<std::string_view, 19> kHarmlessExtensions = {
+constexpr std::array<std::string_view, 20> kHarmlessExtensions = {
     kQuantization,
+    kMeshoptExtension,
     "KHR_animation_pointer",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",

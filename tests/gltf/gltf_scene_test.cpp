@@ -287,7 +287,7 @@ TEST(GltfScene, RequiredExtensionsMustBeUnderstood) {
     builder.json["extensionsUsed"] = {"KHR_materials_unlit", "EXT_lights_ies"};
     builder.json["extensionsRequired"] = {"KHR_materials_unlit"};
     EXPECT_EQ(builder.read().warnings.size(), 1u);
-    for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+    for (const char* name : {"KHR_draco_mesh_compression", "KHR_meshopt_compression",
                              "EXT_texture_webp", "EXT_lights_ies"}) {
         builder.json["extensionsRequired"] = {name};
         try {
