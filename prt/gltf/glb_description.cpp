@@ -12,6 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Behind the binary chunk, which is the first.
+constexpr int kFallbackBuffer = 1;
 // A near plane that keeps the depth buffer useful: this fraction of the scene's size.
 constexpr double kNearPerSceneRadius = 1e-3;
 
@@ -97,10 +99,9 @@ const char* elementType(int componentCount) {
 /// The file's JSON, part by part.
 class GlbDescription {
   public:
-    /// @param checksums  of the layout's views, eight digits each
     GlbDescription(const Scene& scene, const GlbExtension* extension, const GlbLayout& layout,
-                   std::span<const std::string> checksums)
-        : scene_(scene), extension_(extension), layout_(layout), checksums_(checksums) {}
+                   const GlbStorage& storage)
+        : scene_(scene), extension_(extension), layout_(layout), storage_(storage) {}
 
     std::string dump() {
         Json root;
@@ -109,6 +110,10 @@ class GlbDescription {
         describeMaterials();
         describeMeshes();
         describeCameras();
+        if (storage_.hasEncodedViews()) {
+            useExtension(kMeshoptExtension);
+            root["extensionsRequired"] = {kMeshoptExtension};
+        }
         addUnlessEmpty(root, "extensionsUsed", extensionsUsed_);
         Json rootNodes = Json::array();
         for (std::size_t node = 0; node < nodes_.size(); ++node)
@@ -126,11 +131,12 @@ class GlbDescription {
         addUnlessEmpty(root, "images", describeImages());
         addUnlessEmpty(root, "accessors", describeAccessors());
         addUnlessEmpty(root, "bufferViews", describeViews());
-        if (layout_.byteLength > 0)
-            root["buffers"] = Json::array({{{"byteLength", layout_.byteLength}}});
+        addUnlessEmpty(root, "buffers", describeBuffers());
         if (extension_) {
             Json object = Json::parse(extension_->rootJson);
-            object["checksums"] = checksums_;
+            object["checksums"] = Json::array();
+            for (const StoredView& view : storage_.views)
+                object["checksums"].push_back(view.checksum);
             root["extensions"][extension_->name] = std::move(object);
         }
         // Names may come from anywhere; glTF is UTF-8.
@@ -234,7 +240,7 @@ class GlbDescription {
     Json describeBinding(const PrimitiveLayout& layout) const {
         Json object = Json::parse(extension_->meshJson[layout.mesh]);
         for (const auto& [semantic, accessor] : layout.attributes)
-            object["checksums"][semantic] = checksums_[accessor];
+            object["checksums"][semantic] = storage_.views[accessor].valuesChecksum;
         return object;
     }
 
@@ -307,21 +313,44 @@ class GlbDescription {
 
     Json describeViews() const {
         Json views = Json::array();
-        for (const ViewLayout& layout : layout_.views) {
+        for (std::size_t i = 0; i < layout_.views.size(); ++i) {
+            const ViewLayout& layout = layout_.views[i];
+            const StoredView& stored = storage_.views[i];
             Json view;
-            view["buffer"] = 0;
-            view["byteOffset"] = layout.byteOffset;
-            view["byteLength"] = layout.byteLength;
+            view["buffer"] = stored.encoding ? kFallbackBuffer : 0;
+            view["byteOffset"] = stored.encoding ? layout.byteOffset : stored.byteOffset;
+            view["byteLength"] =
+                stored.encoding ? stored.encoding->decodedBytes() : stored.byteLength;
             if (layout.target != ViewTarget::none) view["target"] = static_cast<int>(layout.target);
+            if (stored.encoding)
+                view["extensions"][kMeshoptExtension] = {
+                    {"buffer", 0},
+                    {"byteOffset", stored.byteOffset},
+                    {"byteLength", stored.byteLength},
+                    {"byteStride", stored.encoding->byteStride},
+                    {"count", stored.encoding->count},
+                    {"mode", meshoptModeName(stored.encoding->mode)}};
             views.push_back(std::move(view));
         }
         return views;
     }
 
+    /// The binary chunk; and the buffer without bytes in which encoded views would lie decoded.
+    Json describeBuffers() const {
+        Json buffers = Json::array();
+        if (storage_.byteLength > 0) buffers.push_back({{"byteLength", storage_.byteLength}});
+        if (storage_.hasEncodedViews()) {
+            Json fallback = {{"byteLength", layout_.byteLength}};
+            fallback["extensions"][kMeshoptExtension]["fallback"] = true;
+            buffers.push_back(std::move(fallback));
+        }
+        return buffers;
+    }
+
     const Scene& scene_;
     const GlbExtension* extension_;
     const GlbLayout& layout_;
-    std::span<const std::string> checksums_;
+    const GlbStorage& storage_;
     Json extensionsUsed_ = Json::array();
     Json nodes_ = Json::array();
     Json cameras_ = Json::array();
@@ -334,8 +363,8 @@ class GlbDescription {
 }  // namespace
 
 std::string describeGlb(const Scene& scene, const GlbExtension* extension, const GlbLayout& layout,
-                        std::span<const std::string> checksums) {
-    return GlbDescription(scene, extension, layout, checksums).dump();
+                        const GlbStorage& storage) {
+    return GlbDescription(scene, extension, layout, storage).dump();
 }
 
 }  // namespace prt::gltf

@@ -14,7 +14,7 @@ namespace prt::gltf {
 
 enum class ViewTarget { none = 0, vertices = 34962, indices = 34963 };
 
-/// A buffer view of the file to be: where its bytes will stand, and what makes them.
+/// A buffer view of the file to be: where its bytes stand if none is encoded, and what makes them.
 struct ViewLayout {
     std::string name;  ///< for complaints: "POSITION of mesh 3"
     std::size_t byteOffset = 0;

@@ -3,11 +3,11 @@
 #include <limits>
 
 #include "prt/base/assert.h"
-#include "prt/base/checksum.h"
 #include "prt/base/error.h"
 #include "prt/base/file.h"
 #include "prt/gltf/glb_description.h"
 #include "prt/gltf/glb_layout.h"
+#include "prt/gltf/glb_storage.h"
 
 namespace prt {
 namespace {
@@ -74,36 +74,28 @@ std::string makeFront(const GlbChunks& chunks, std::string json) {
 
 /// Makes the file part by part, from its beginning to its end, with only the largest view in memory
 /// at once. The checksums stand before the views, so each view is made twice.
-void makeGlb(const Scene& scene, const GlbExtension* extension, const PartWriter& write) {
+void makeGlb(const Scene& scene, const GlbExtension* extension, const GlbOptions& options,
+             const PartWriter& write) {
     if (extension)
         PRT_ASSERT(extension->meshJson.size() == scene.meshes.size() &&
                        extension->attributes.size() == scene.meshes.size(),
                    "the extension has an object and attributes for each mesh");
 
-    // Checksums are all of one length, so the size of the JSON is known before its content.
     const gltf::GlbLayout layout = gltf::layOutBinary(scene, extension);
-    std::vector<std::string> checksums(layout.views.size(), formatChecksum(0));
-    const std::size_t jsonBytes = gltf::describeGlb(scene, extension, layout, checksums).size();
-    const GlbChunks chunks = layOutChunks(jsonBytes, layout.byteLength);
+    gltf::GlbStorage storage = gltf::planStorage(layout);
+    const auto describe = [&] { return gltf::describeGlb(scene, extension, layout, storage); };
+    // Checksums are all of one length, so a file that would be too large is known before its views
+    // are made; where they are to be encoded, only then.
+    if (!options.meshopt) layOutChunks(describe().size(), storage.byteLength);
+    gltf::measureViews(layout, options.meshopt, storage);
 
-    std::vector<std::byte> bytes;
-    const auto makeView = [&](const gltf::ViewLayout& view) {
-        bytes.assign(view.byteLength, std::byte{0});
-        gltf::writeView(view, bytes);
-    };
-    for (std::size_t i = 0; i < layout.views.size(); ++i) {
-        makeView(layout.views[i]);
-        checksums[i] = formatChecksum(computeCrc32(bytes));
-    }
-    const std::string front =
-        makeFront(chunks, gltf::describeGlb(scene, extension, layout, checksums));
+    const std::string json = describe();
+    const GlbChunks chunks = layOutChunks(json.size(), storage.byteLength);
+    const std::string front = makeFront(chunks, json);
     write(std::as_bytes(std::span(front)));
-    for (const gltf::ViewLayout& view : layout.views) {
-        makeView(view);
-        write(bytes);
-    }
-    bytes.assign(chunks.binaryBytes - layout.byteLength, std::byte{0});
-    write(bytes);
+    for (const std::size_t index : storage.order)
+        write(gltf::makeStoredView(layout, storage, index));
+    write(std::vector<std::byte>(chunks.binaryBytes - storage.byteLength));
 }
 
 }  // namespace
@@ -115,18 +107,20 @@ std::string formatChecksum(std::uint32_t crc32) {
     return digits;
 }
 
-std::vector<std::byte> encodeGlb(const Scene& scene, const GlbExtension* extension) {
+std::vector<std::byte> encodeGlb(const Scene& scene, const GlbExtension* extension,
+                                 const GlbOptions& options) {
     std::vector<std::byte> file;
-    makeGlb(scene, extension, [&](std::span<const std::byte> bytes) {
+    makeGlb(scene, extension, options, [&](std::span<const std::byte> bytes) {
         file.insert(file.end(), bytes.begin(), bytes.end());
     });
     return file;
 }
 
-void writeGlb(const std::filesystem::path& path, const Scene& scene,
-              const GlbExtension* extension) {
+void writeGlb(const std::filesystem::path& path, const Scene& scene, const GlbExtension* extension,
+              const GlbOptions& options) {
     AtomicFile file(path);
-    makeGlb(scene, extension, [&](std::span<const std::byte> bytes) { file.append(bytes); });
+    makeGlb(scene, extension, options,
+            [&](std::span<const std::byte> bytes) { file.append(bytes); });
     file.commit();
 }
 

@@ -31,6 +31,13 @@ struct GlbExtension {
     std::vector<std::vector<GlbAccessor>> attributes;  ///< for each mesh
 };
 
+struct GlbOptions {
+    /// Encodes vertex attributes and indices without loss, those that take fewer bytes so. Readers
+    /// must then know EXT_meshopt_compression. Triangles stay in order; their corners may start at
+    /// another. Much more is gained after orderForEncoding.
+    bool meshopt = false;
+};
+
 /// A CRC-32 as the extension's checksums write it: eight lower-case hexadecimal digits.
 std::string formatChecksum(std::uint32_t crc32);
 
@@ -41,15 +48,16 @@ std::string formatChecksum(std::uint32_t crc32);
 ///
 /// @param extension  optional; listed in extensionsUsed, never in extensionsRequired. Its root
 ///                   object is given a member "checksums", an array with the CRC-32 of each buffer
-///                   view, and each of its mesh objects one that maps the mesh's attributes to
-///                   those of their values
+///                   view as stored, and each of its mesh objects one that maps the mesh's
+///                   attributes to those of their values
 /// @throws Error     malformed if the scene holds a number that is not finite; limitExceeded beyond
 ///                   the 4 GiB that a binary glTF can have
-std::vector<std::byte> encodeGlb(const Scene& scene, const GlbExtension* extension = nullptr);
+std::vector<std::byte> encodeGlb(const Scene& scene, const GlbExtension* extension = nullptr,
+                                 const GlbOptions& options = {});
 
 /// Writes the same atomically, with no more of it in memory than the largest of its parts.
 /// @throws Error as encodeGlb, and writeFailed
 void writeGlb(const std::filesystem::path& path, const Scene& scene,
-              const GlbExtension* extension = nullptr);
+              const GlbExtension* extension = nullptr, const GlbOptions& options = {});
 
 }  // namespace prt
