@@ -34,17 +34,22 @@ struct Asset {
 inline constexpr int kAssetVersionMajor = 1;
 inline constexpr int kAssetVersionMinor = 1;
 
+struct AssetOptions {
+    bool meshopt = false;  ///< as GlbOptions::meshopt; all numbers stay as they are
+};
+
 /// The bytes of a .prt.glb: glTF with the extension OPENPRT_radiance_transfer.
 ///
 /// @param transfer  of this scene: receiverOfVertex has one entry a vertex
 /// @throws Error    limitExceeded for more than the 4 GiB that a binary glTF can have, and for more
 ///                  than 65536 clusters (256 where weights are bytes) or 255 components in one
 std::vector<std::byte> encodeAsset(const Scene& scene, const CompressedTransfer& transfer,
-                                   const Provenance& provenance);
+                                   const Provenance& provenance, const AssetOptions& options = {});
 
 /// Writes them atomically. @throws Error as encodeAsset, and writeFailed
 void writeAsset(const std::filesystem::path& path, const Scene& scene,
-                const CompressedTransfer& transfer, const Provenance& provenance);
+                const CompressedTransfer& transfer, const Provenance& provenance,
+                const AssetOptions& options = {});
 
 /// Reads and checks a .prt.glb. Images stay encoded.
 ///

@@ -43,7 +43,7 @@ void checkBufferViews(const GltfDocument& document, const std::vector<std::strin
         reject("has " + std::to_string(document.bufferViewCount()) + " buffer views, but " +
                std::to_string(checksums.size()) + " checksums");
     for (std::size_t view = 0; view < checksums.size(); ++view)
-        if (checksums[view] != formatChecksum(computeCrc32(document.bufferViewBytes(view))))
+        if (checksums[view] != formatChecksum(computeCrc32(document.storedViewBytes(view))))
             reject("is damaged: the checksum of buffer view " + std::to_string(view) + " differs");
 }
 

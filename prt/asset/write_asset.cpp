@@ -98,15 +98,16 @@ GlbExtension makeExtension(const Scene& scene, const CompressedTransfer& transfe
 }  // namespace
 
 std::vector<std::byte> encodeAsset(const Scene& scene, const CompressedTransfer& transfer,
-                                   const Provenance& provenance) {
+                                   const Provenance& provenance, const AssetOptions& options) {
     const GlbExtension extension = makeExtension(scene, transfer, provenance);
-    return encodeGlb(scene, &extension);
+    return encodeGlb(scene, &extension, {.meshopt = options.meshopt});
 }
 
 void writeAsset(const std::filesystem::path& path, const Scene& scene,
-                const CompressedTransfer& transfer, const Provenance& provenance) {
+                const CompressedTransfer& transfer, const Provenance& provenance,
+                const AssetOptions& options) {
     const GlbExtension extension = makeExtension(scene, transfer, provenance);
-    writeGlb(path, scene, &extension);
+    writeGlb(path, scene, &extension, {.meshopt = options.meshopt});
 }
 
 }  // namespace prt
