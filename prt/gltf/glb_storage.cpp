@@ -41,7 +41,7 @@ std::vector<std::byte> encodeView(const MeshoptView& encoding, std::span<const s
 /// Lines the views up.
 void arrangeViews(const GlbLayout& layout, GlbStorage& storage) {
     const auto group = [&](std::size_t index) {
-        if (layout.views[index].target == ViewTarget::none) return 2;
+        if (index >= layout.accessors.size()) return 2;
         return storage.views[index].encoding ? 1 : 0;
     };
     std::stable_sort(storage.order.begin(), storage.order.end(),

@@ -62,7 +62,7 @@ GlbExtension makeExtension(const Scene& scene) {
     extension.rootJson = "{}";
     for (const Mesh& mesh : scene.meshes) {
         extension.meshJson.push_back("{}");
-        std::vector<GlbAttribute>& attributes = extension.attributes.emplace_back();
+        auto& attributes = extension.attributes.emplace_back();
         for (const bool isSmooth : {false, true, false})
             attributes.push_back({"_TEST_" + std::to_string(attributes.size()),
                                   {mesh.vertexCount(), 4, ComponentType::uint8, true},
