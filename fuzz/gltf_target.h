@@ -22,7 +22,8 @@ inline int readGltfBytes(std::vector<std::byte> file) {
             document.readRaw(i);
         }
         for (std::size_t i = 0; i < document.bufferViewCount(); ++i)
-            document.bufferViewBytes(i);
+            PRT_ASSERT(document.bufferViewBytes(i).empty() == document.storedViewBytes(i).empty(),
+                       "what is stored is what is read, or encodes it");
     });
 }
 

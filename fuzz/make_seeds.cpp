@@ -17,6 +17,7 @@
 #include "prt/transport/bake_settings.h"
 #include "tests/asset/asset_builder.h"
 #include "tests/gltf/full_file.h"
+#include "tests/gltf/meshopt_file.h"
 #include "tests/io/exr_bytes.h"
 #include "tests/io/png_bytes.h"
 
@@ -57,7 +58,8 @@ void writeGltf(const SeedFolder& seeds) {
     const std::pair<const char*, GltfBuilder> files[] = {
         {"full", prt::test::makeFullFile()},
         {"tetrahedron", prt::test::makeTetrahedronFile({{"translation", {1, 2, 3}}})},
-        {"strip", strip}};
+        {"strip", strip},
+        {"meshopt", prt::test::makeMeshoptFile()}};
     for (const auto& [name, builder] : files) {
         seeds.write("gltf", name, builder.gltf());
         seeds.write("glb", name, builder.glb());
@@ -87,6 +89,13 @@ void writeAssets(const SeedFolder& seeds) {
         writeAsset(seeds, "clusters-" + name, scene,
                    prt::test::makeClusteredTransfer(scene, 2, form, transports));
     }
+    prt::Scene grid = prt::test::makeTwoGrids();
+    grid.meshes = {prt::test::makeGrid("floor", 12, 0.0f)};
+    seeds.write("asset", "meshopt",
+                prt::encodeAsset(grid,
+                                 prt::test::makeTransfer(grid, 1, prt::TransferEncoding::unorm8,
+                                                         {prt::Transport::shadowed}),
+                                 prt::test::makeProvenance(), {.meshopt = true}));
 }
 
 void writeObj(const SeedFolder& seeds) {
