@@ -26,7 +26,7 @@ struct GridOptions {
 };
 
 /// Random transfer of texels. The narrowest coefficient is far from 0, so that it has the least
-/// variance but not the least energy.
+/// variance but not the least energy; of its channels the first varies most.
 TransferLayer randomGrid(const GridOptions& options) {
     TransferLayer layer;
     layer.transport = Transport::interreflected;
@@ -37,7 +37,10 @@ TransferLayer randomGrid(const GridOptions& options) {
     RandomStream random(3, 1);
     for (std::size_t k = 0; k < values.size(); ++k) {
         const int i = static_cast<int>(k) % coefficientCount;
-        const float range = i == options.narrowest ? 0.001f : 0.01f * static_cast<float>(1 + i % 7);
+        const auto channel =
+            static_cast<float>(k % rowLength / static_cast<std::size_t>(coefficientCount));
+        const float range = i == options.narrowest ? 0.001f / (1.0f + channel)
+                                                   : 0.01f * static_cast<float>(1 + i % 7);
         const float middle = i == options.narrowest ? 0.5f : 0.02f * static_cast<float>(i % 3);
         values[k] = middle + range * (random.nextUnitFloat() - 0.5f);
     }

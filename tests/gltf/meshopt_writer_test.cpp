@@ -28,7 +28,7 @@ Mesh makeWaves(std::uint32_t side) {
         mesh.positions.emplace_back(x, 0.25f * std::sin(x), z);
         mesh.normals.push_back(Vec3f(-0.25f * std::cos(x), 1.0f, 0.0f).normalized());
         mesh.uvSets[0].emplace_back(x / 16.0f, z / 16.0f);
-        mesh.colors.emplace_back(0.5f, 0.25f, 1.0f, 1.0f);
+        mesh.colors.emplace_back(x / 32.0f, z / 32.0f, 1.0f, 1.0f);
     }
     for (std::uint32_t z = 0; z + 1 < side; ++z)
         for (std::uint32_t x = 0; x + 1 < side; ++x) {
