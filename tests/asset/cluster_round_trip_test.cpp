@@ -89,10 +89,22 @@ TEST(AssetWithClusters, SmallestAndLargestCountsComeBack) {
     };
     EXPECT_EQ(countsOf(TransferEncoding::unorm8, 256), 256u);
     EXPECT_EQ(countsOf(TransferEncoding::unorm16, 65536), 65536u);
-    EXPECT_THROW(countsOf(TransferEncoding::unorm8, 257), Error);
-    EXPECT_THROW(countsOf(TransferEncoding::unorm16, 65537), Error);
-    transfer.layers = {makeClusteredLayer(Transport::shadowed, 1, 1, {.componentCounts = {256}})};
-    EXPECT_THROW(writeAndRead(triangle, transfer), Error);
+}
+
+TEST(AssetWithClusters, MoreThanTheFormatCanCountIsNotWritten) {
+    const auto expectRefusal = [](TransferEncoding weights, std::vector<std::uint32_t> counts) {
+        const CompressedLayer layer = makeClusteredLayer(
+            Transport::shadowed, 1, 1, {.weights = weights, .componentCounts = std::move(counts)});
+        try {
+            encodeAsset(test::makeTriangle(), {1, 1, {0, 0, 0}, {layer}}, makeProvenance());
+            ADD_FAILURE() << "it was written";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::limitExceeded);
+        }
+    };
+    expectRefusal(TransferEncoding::unorm8, std::vector<std::uint32_t>(257, 0));
+    expectRefusal(TransferEncoding::unorm16, std::vector<std::uint32_t>(65537, 0));
+    expectRefusal(TransferEncoding::float32, {256});
 }
 
 TEST(AssetWithClusters, IntegersWithoutRangesAreWrittenWithThoseThatChangeNothing) {
