@@ -10,7 +10,7 @@ namespace prt::cli {
 namespace {
 
 constexpr const char* kFooter =
-    R"(Example: prt bake statue.glb -o statue.prt.glb --samples 4096 --bounces inf --method u16
+    R"(Example: prt bake statue.glb -o statue.prt.glb --samples 4096 --bounces inf --method cpca
 
 The asset is a glTF with one layer for each transport up to the one asked for, so that all of them
 can be shown. The same seed gives the same bytes for any number of threads, on one instruction set.
@@ -49,7 +49,7 @@ void addBakeCommand(CLI::App& app) {
     BakeArguments& arguments = state->arguments;
     CLI::App* command =
         app.add_subcommand("bake", "Precompute a scene's light transport: SCENE to OUT.prt.glb");
-    command->footer(kFooter);
+    command->footer(std::string(kFooter) + "\n\n" + kMethodHelp);
     command
         ->add_option("SCENE", arguments.scene, "the scene: .gltf, .glb, .obj or .ply; metres, Y up")
         ->required();

@@ -102,7 +102,7 @@ void addTransportOptions(CLI::App& command, BakeArguments& arguments) {
 
 void addRunOptions(CLI::App& command, BakeArguments& arguments) {
     BakeOptions& bake = arguments.bake;
-    addMethodOption(command, arguments.encoding);
+    addMethodOptions(command, arguments.method);
     addIntegerOption(command, "--threads", bake.threadCount, 0, 4096, "0 for one a core");
     command
         .add_option("--memory", bake.memoryBytes,
@@ -152,11 +152,11 @@ Provenance makeProvenance(const BakeArguments& arguments, const BakeStats& stats
     const BakeOptions& bake = arguments.bake;
     const bool infinite = bake.bounceCount == kInfiniteBounces;
     std::string command = fmt::format(
-        "bake --transport {} --bands {} --samples {} --bounces {} --max-edge {} --method {} --seed "
+        "bake --transport {} --bands {} --samples {} --bounces {} --max-edge {} {} --seed "
         "{} --isa {}",
         transportName(bake.transport), bake.bandCount, bake.sampleCount,
         infinite ? "inf" : std::to_string(bake.bounceCount),
-        formatEdgeLength(arguments.maxEdgeLength), methodName(arguments.encoding), bake.seed,
+        formatEdgeLength(arguments.maxEdgeLength), describeMethod(arguments.method), bake.seed,
         isaName(stats.isa));
     const RefineArguments& refine = arguments.refine;
     if (refine.maxError > 0.0f)

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/prt/compress_method.h"
 #include "apps/prt/limits.h"
 #include "prt/asset/asset.h"
 #include "prt/transport/bake.h"
@@ -29,7 +30,7 @@ struct BakeArguments {
     std::string stats;
     float maxEdgeLength = 0.0f;  ///< metres; 0 chooses from the scene, or kKeepEdges
     RefineArguments refine;
-    TransferEncoding encoding = TransferEncoding::float32;
+    MethodArguments method{.byDefault = "float"};
     BakeOptions bake;
     ReaderLimits limits;
 };

@@ -1,9 +1,11 @@
 #include "apps/prt/bake_work.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,28 +101,29 @@ Scene prepareScene(BakeArguments& arguments, StageLog& log) {
 }
 
 /// What transfer will take in the asset.
-std::uint64_t countTransferBytes(const Scene& scene, const BakeArguments& arguments) {
-    std::uint64_t vertexBytes = 0;
+std::uint64_t countTransferBytes(const Scene& scene, const BakeArguments& arguments,
+                                 const CompressOptions& compress) {
+    double vertexBytes = 0.0;
     for (const int channelCount : {1, 3}) {
         if (channelCount == 3 && arguments.bake.transport != Transport::interreflected) continue;
-        const CompressedLayer layer{.channelCount = channelCount,
-                                    .table = {.encoding = arguments.encoding}};
-        vertexBytes += countAttributes(arguments.bake.bandCount, layer) *
-                       kCoefficientsPerAttribute * bytesPerCoefficient(arguments.encoding);
+        vertexBytes += forecastVertexBytes(
+            compress, coefficientsPerReceiver(arguments.bake.bandCount, channelCount),
+            scene.vertexCount());
     }
-    return scene.vertexCount() * vertexBytes;
+    return static_cast<std::uint64_t>(static_cast<double>(scene.vertexCount()) * vertexBytes);
 }
 
 /// Checks that a binary glTF can hold what will be baked, and the disk too, before it is.
-void checkAssetSize(const Scene& scene, const BakeArguments& arguments) {
+void checkAssetSize(const Scene& scene, const BakeArguments& arguments,
+                    const CompressOptions& compress) {
     constexpr std::uint64_t kMaxBytes = UINT32_MAX;
-    const std::uint64_t bytes = countTransferBytes(scene, arguments);
+    const std::uint64_t bytes = countTransferBytes(scene, arguments, compress);
     if (bytes > kMaxBytes)
         throw Error(
             ErrorCode::limitExceeded,
             fmt::format("would need {} of transfer, more than the {} that a binary glTF can have",
                         formatBytes(bytes), formatBytes(kMaxBytes)),
-            arguments.output, "use fewer bands, --method u16 or u8, or split the scene");
+            arguments.output, "use fewer bands, --method cpca, u16 or u8, or split the scene");
     std::error_code unknown;
     const std::uint64_t freeBytes =
         std::filesystem::space(std::filesystem::absolute(arguments.output).parent_path(), unknown)
@@ -129,7 +132,7 @@ void checkAssetSize(const Scene& scene, const BakeArguments& arguments) {
         throw Error(ErrorCode::writeFailed,
                     fmt::format("needs more than {}, and its disk has {} left", formatBytes(bytes),
                                 formatBytes(freeBytes)),
-                    arguments.output, "make space, or use fewer bands or --method u16 or u8");
+                    arguments.output, "make space, or use fewer bands or --method cpca, u16 or u8");
 }
 
 /// Says what the bake will take.
@@ -200,23 +203,49 @@ TransferField bakeScene(const Scene& scene, const BakeArguments& arguments, Bake
     return field;
 }
 
-std::size_t countBytesPerReceiver(const CompressedTransfer& transfer) {
-    std::size_t bytes = 0;
+std::uint64_t countBytesPerReceiver(const CompressedTransfer& transfer) {
+    double bytes = 0.0;
     for (const CompressedLayer& layer : transfer.layers)
-        bytes += layer.table.numbers.byteCount();
-    return bytes / transfer.receiverCount;
+        bytes += static_cast<double>(bytesPerReceiver(layer)) +
+                 static_cast<double>(countSharedBytes(layer)) /
+                     static_cast<double>(transfer.receiverCount);
+    return static_cast<std::uint64_t>(std::ceil(bytes));
+}
+
+/// Compresses layer after layer, and tells the errors of each.
+///
+/// @param light  under which they are seen
+CompressedTransfer compressAndTell(TransferField field, const BakeArguments& arguments,
+                                   const CompressOptions& options, std::span<const Vec3d> light,
+                                   StageLog& log) {
+    CompressedTransfer transfer{
+        field.bandCount, field.receiverCount, std::move(field.receiverOfVertex), {}};
+    for (TransferLayer& layer : field.layers) {
+        transfer.layers.push_back(compressLayer(layer, field.bandCount, options));
+        tellCompression(transfer.layers.back(), layer,
+                        layer.coefficients.columnCount() * sizeof(float), arguments.method, light,
+                        log);
+        layer.coefficients = {};
+    }
+    return transfer;
 }
 
 /// Bakes, and keeps no more of it than the asset needs.
 CompressedTransfer bakeCompressed(const Scene& scene, const BakeArguments& arguments,
+                                  CompressOptions compress, std::span<const Vec3d> light,
                                   BakeStats& stats, StageSeconds& seconds, StageLog& log) {
     TransferField field = bakeScene(scene, arguments, stats, log);
     const Stopwatch watch;
+    compress.threadCount = arguments.bake.threadCount;
+    compress.progress = log.callback();
+    if (compress.clusters) compress.clusters->light.assign(light.begin(), light.end());
     CompressedTransfer transfer =
-        compressTransfer(std::move(field), {.encoding = arguments.encoding});
+        compress.clusters || !light.empty()
+            ? compressAndTell(std::move(field), arguments, compress, light, log)
+            : compressTransfer(std::move(field), compress);
     seconds.compress = watch.seconds();
     log.finishStage("compress", seconds.compress,
-                    fmt::format("{}, {} a vertex", methodName(arguments.encoding),
+                    fmt::format("{}, {} a vertex", methodName(arguments.method),
                                 formatCount(countBytesPerReceiver(transfer), "byte")));
     return transfer;
 }
@@ -248,15 +277,19 @@ void bakeToAsset(BakeArguments arguments) {
     const Stopwatch total;
     StageLog log;
     StageSeconds seconds;
+    const CompressOptions compress = makeCompressOptions(arguments.method, arguments.bake.seed);
     checkOutputs(arguments);
+    const std::vector<Vec3d> light =
+        loadErrorLight(arguments.method, arguments.bake.bandCount, arguments.limits);
     stopIfInterrupted();
 
     const Scene scene = prepareScene(arguments, log);
-    checkAssetSize(scene, arguments);
+    checkAssetSize(scene, arguments, compress);
     seconds.load = total.seconds();
 
     BakeStats stats;
-    const CompressedTransfer transfer = bakeCompressed(scene, arguments, stats, seconds, log);
+    const CompressedTransfer transfer =
+        bakeCompressed(scene, arguments, compress, light, stats, seconds, log);
 
     const Stopwatch writeWatch;
     const DeferInterrupts whileWriting;

@@ -59,6 +59,12 @@ std::optional<BandCounts> parseBandCounts(std::string_view text) {
     return counts.first == *first && counts.last == *last ? std::optional(counts) : std::nullopt;
 }
 
+/// What a layer stores for a vertex, with its share of what is stored for all.
+std::size_t countVertexBytes(const CompressedLayer& layer) {
+    const std::size_t receiverCount = std::max<std::size_t>(1, layer.table.numbers.rowCount());
+    return bytesPerReceiver(layer) + (countSharedBytes(layer) + receiverCount - 1) / receiverCount;
+}
+
 /// Compares one asset with its path-traced truth, under one light after the other.
 class AssetComparison {
   public:
@@ -110,7 +116,7 @@ class AssetComparison {
                 .vertexCount = asset_.scene.vertexCount(),
                 .triangleCount = asset_.scene.triangleCount(),
                 .assetBytes = std::filesystem::file_size(arguments_.asset),
-                .bytesPerVertex = layer ? bytesPerReceiver(*layer) : 0,
+                .bytesPerVertex = layer ? countVertexBytes(*layer) : 0,
                 .transport = transport_,
                 .referenceSamples = referenceOptions_.samplesPerRay *
                                     referenceOptions_.view.samplesPerAxis *

@@ -11,12 +11,13 @@
 #include "apps/prt/commands.h"
 #include "apps/prt/compress_method.h"
 #include "apps/prt/interrupts.h"
+#include "apps/prt/light_argument.h"
+#include "apps/prt/limits.h"
 #include "apps/prt/stage_log.h"
 #include "apps/prt/text.h"
 #include "prt/asset/asset.h"
 #include "prt/base/error.h"
 #include "prt/compress/compress_transfer.h"
-#include "prt/compress/compression_error.h"
 
 namespace prt::cli {
 namespace {
@@ -24,8 +25,11 @@ namespace {
 struct CompressArguments {
     std::string asset;
     std::string output;
-    TransferEncoding encoding = TransferEncoding::unorm16;
+    MethodArguments method{.byDefault = "u16"};
     std::optional<Transport> transport;
+    std::uint64_t seed = 1;
+    int threadCount = 0;
+    ReaderLimits limits;
 };
 
 /// Keeps one layer only.
@@ -37,36 +41,47 @@ void keepLayer(CompressedTransfer& transfer, Transport transport, const std::str
                   [&](const CompressedLayer& layer) { return layer.transport != transport; });
 }
 
-void tellErrors(const CompressedTransfer& compressed, const CompressedTransfer& original,
-                StageLog& log) {
-    for (const CompressedLayer& layer : compressed.layers) {
-        const CompressedLayer& before = *original.findLayer(layer.transport);
-        const CompressionError error = measureCompressionError(layer, before);
-        log.tell(fmt::format(
-            "{}: {} a vertex instead of {}; error {:.2g} % of the transfer, at most {:.2g}",
-            transportName(layer.transport), formatCount(bytesPerReceiver(layer), "byte"),
-            bytesPerReceiver(before), 100.0 * error.relativeRmse, error.largest));
+/// Compresses layer after layer, and keeps of each no more than is still needed.
+CompressedTransfer compressAsset(const CompressedTransfer& original,
+                                 const CompressArguments& arguments, CompressOptions options,
+                                 const std::vector<Vec3d>& light, StageLog& log) {
+    CompressedTransfer compressed{
+        original.bandCount, original.receiverCount, original.receiverOfVertex, {}};
+    if (options.clusters) options.clusters->light = light;
+    for (const CompressedLayer& before : original.layers) {
+        const TransferLayer layer = {
+            before.transport, before.channelCount,
+            makeTable(coefficientsPerReceiver(original.bandCount, before.channelCount),
+                      expandLayer(before))};
+        compressed.layers.push_back(compressLayer(layer, original.bandCount, options));
+        tellCompression(compressed.layers.back(), layer, bytesPerReceiver(before), arguments.method,
+                        light, log);
     }
+    return compressed;
 }
 
 void runCompress(const CompressArguments& arguments) {
+    CompressOptions options = makeCompressOptions(arguments.method, arguments.seed);
     checkAssetOutput(arguments.output, arguments.asset, "the asset it is made from");
     stopIfInterrupted();
     StageLog log;
     const Stopwatch load;
     Asset asset = readAsset(arguments.asset);
     if (arguments.transport) keepLayer(asset.transfer, *arguments.transport, arguments.asset);
+    const std::vector<Vec3d> light =
+        loadErrorLight(arguments.method, asset.transfer.bandCount, arguments.limits);
     log.finishStage("load", load.seconds(), arguments.asset);
 
     const Stopwatch compress;
+    options.threadCount = arguments.threadCount;
+    options.progress = log.callback();
     const CompressedTransfer compressed =
-        compressTransfer(expandTransfer(asset.transfer), {.encoding = arguments.encoding});
+        compressAsset(asset.transfer, arguments, options, light, log);
     log.finishStage("compress", compress.seconds(),
-                    fmt::format("{}, {}", methodName(arguments.encoding),
+                    fmt::format("{}, {}", methodName(arguments.method),
                                 formatCount(asset.scene.vertexCount(), "vertex")));
-    tellErrors(compressed, asset.transfer, log);
-    asset.provenance.command +=
-        fmt::format("; compress --method {}", methodName(arguments.encoding));
+    asset.provenance.command += "; compress " + describeMethod(arguments.method);
+    if (options.clusters) asset.provenance.command += fmt::format(" --seed {}", arguments.seed);
 
     const Stopwatch write;
     const DeferInterrupts whileWriting;
@@ -77,10 +92,18 @@ void runCompress(const CompressArguments& arguments) {
 }
 
 constexpr const char* kFooter =
-    R"(Example: prt compress statue.prt.glb -o statue-small.prt.glb --method u8 --transport interreflected
+    R"(Examples: prt compress statue.prt.glb -o small.prt.glb --method cpca --weigh-by museum.exr
+          prt compress statue.prt.glb -o small.prt.glb --bytes-per-vertex 16 --transport interreflected
 
-Each coefficient's range over all vertices is mapped to the integers. The errors that are told are those of
-reading the new asset back, against the asset that was given.)";
+)";
+
+constexpr const char* kErrorHelp = R"(
+
+The errors that are told are those of reading the new asset back, against the asset that was given: the
+root mean square over all coefficients, as a part of the transfer's; and with --weigh-by that of the radiance
+under the light turned at random, as a part of the mean radiance.
+
+)";
 
 }  // namespace
 
@@ -88,14 +111,18 @@ void addCompressCommand(CLI::App& app) {
     const auto arguments = std::make_shared<CompressArguments>();
     CLI::App* command =
         app.add_subcommand("compress", "Store a baked asset in fewer bytes: ASSET to OUT.prt.glb");
-    command->footer(kFooter);
+    command->footer(std::string(kFooter) + kMethodHelp + kErrorHelp + kLightHelp);
     command->add_option("ASSET", arguments->asset, "what prt bake wrote")->required();
     command->add_option("-o,--output", arguments->output, "the asset to write")
         ->type_name("OUT.prt.glb")
         ->required();
-    addMethodOption(*command, arguments->encoding);
+    addMethodOptions(*command, arguments->method);
     addParsedOption(*command, "--transport", arguments->transport, parseTransport,
                     "unshadowed|shadowed|interreflected", "keep this kind alone [all there are]");
+    addParsedOption(*command, "--seed", arguments->seed, parseWholeNumber, "N", "of the clusters")
+        ->default_str("1");
+    addIntegerOption(*command, "--threads", arguments->threadCount, 0, 4096, "0 for one a core");
+    addPixelLimit(*command, arguments->limits);
     command->callback([arguments] { runCompress(*arguments); });
 }
 

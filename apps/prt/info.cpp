@@ -51,12 +51,16 @@ void printTransfer(const CompressedTransfer& transfer) {
         fmt::format("{} ({} a channel)", transfer.bandCount,
                     formatCount(static_cast<std::uint64_t>(shCoefficientCount(transfer.bandCount)),
                                 "coefficient")));
-    fmt::print("\n{:<16} {:>8} {:>10} {:>14} {:>10}\n", "layer", "channels", "encoding",
-               "bytes/vertex", "bytes");
+    fmt::print("\n{:<16} {:>8} {:>10} {:>8} {:>10} {:>14} {:>10} {:>10}\n", "layer", "channels",
+               "encoding", "clusters", "components", "bytes/vertex", "bytes", "and bases");
     for (const CompressedLayer& layer : transfer.layers)
-        fmt::print("{:<16} {:>8} {:>10} {:>14} {:>10}\n", transportName(layer.transport),
-                   layer.channelCount, encodingName(layer.table.encoding), bytesPerReceiver(layer),
-                   formatBytes(layer.table.numbers.byteCount()));
+        fmt::print("{:<16} {:>8} {:>10} {:>8} {:>10} {:>14} {:>10} {:>10}\n",
+                   transportName(layer.transport), layer.channelCount,
+                   encodingName(layer.table.encoding),
+                   layer.bases ? formatCount(layer.bases->clusterCount()) : "",
+                   layer.bases ? formatCount(layer.bases->componentCount()) : "",
+                   bytesPerReceiver(layer), formatBytes(layer.table.numbers.byteCount()),
+                   layer.bases ? formatBytes(countSharedBytes(layer)) : "");
 }
 
 void printTable(const std::string& path, const Asset& asset) {
@@ -68,12 +72,19 @@ void printTable(const std::string& path, const Asset& asset) {
 
 nlohmann::ordered_json describeLayers(const CompressedTransfer& transfer) {
     auto layers = nlohmann::ordered_json::array();
-    for (const CompressedLayer& layer : transfer.layers)
+    for (const CompressedLayer& layer : transfer.layers) {
         layers.push_back({{"transport", transportName(layer.transport)},
                           {"channels", layer.channelCount},
                           {"encoding", encodingName(layer.table.encoding)},
                           {"bytes_per_vertex", bytesPerReceiver(layer)},
                           {"bytes", layer.table.numbers.byteCount()}});
+        if (!layer.bases) continue;
+        layers.back()["clusters"] = layer.bases->clusterCount();
+        layers.back()["components"] = layer.bases->componentCount();
+        layers.back()["vectors"] = layer.bases->vectors.numbers.rowCount();
+        layers.back()["bases_encoding"] = encodingName(layer.bases->vectors.encoding);
+        layers.back()["shared_bytes"] = countSharedBytes(layer);
+    }
     return layers;
 }
 

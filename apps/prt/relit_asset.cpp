@@ -57,12 +57,13 @@ std::vector<Vec3f> relightVertices(const Asset& asset, const std::string& path, 
 
 std::vector<double> deringForAsset(const Asset& asset, const std::string& path, Transport transport,
                                    const Lighting& lighting) {
-    // Eight bits a coefficient make more noise than the library's tolerance, which is for sixteen.
-    constexpr double kToleranceOfEightBits = 1e-2;
+    // Eight bits a coefficient, and clusters, make more noise than the library's tolerance, which
+    // is for sixteen bits.
+    constexpr double kToleranceOfNoise = 1e-2;
     const CompressedLayer* layer = asset.transfer.findLayer(transport);
     ReceiverDeringingOptions options;
-    if (layer && layer->table.encoding == TransferEncoding::unorm8)
-        options.tolerance = kToleranceOfEightBits;
+    if (layer && (layer->bases || layer->table.encoding == TransferEncoding::unorm8))
+        options.tolerance = kToleranceOfNoise;
     return deringingFactors(makeRelighter(asset, path, transport), lighting, options);
 }
 

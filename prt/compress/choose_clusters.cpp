@@ -198,11 +198,12 @@ std::vector<Form> listFormsOfSize(const Trials& trials, double bytes) {
 
 Form chooseForBytes(Trials& trials, double bytes) {
     const std::vector<Form> forms = listFormsOfSize(trials, bytes);
-    if (forms.empty())
-        throw Error(
-            ErrorCode::invalidOption,
-            "no form of transfer takes as little as " + std::to_string(bytes) + " bytes a vertex",
-            {}, "allow more");
+    if (forms.empty()) {
+        const Form least{TransferEncoding::unorm8, 1, listComponentCounts(trials.rowLength())[0]};
+        const auto leastBytes = static_cast<std::uint64_t>(std::ceil(trials.bytes(least)));
+        throw Error(ErrorCode::invalidOption, "a layer does not fit in so few bytes a vertex", {},
+                    "allow " + std::to_string(leastBytes));
+    }
     const auto best = std::ranges::min_element(
         forms, [&](const Form& a, const Form& b) { return trials.error(a) < trials.error(b); });
     return *best;

@@ -14,11 +14,11 @@ namespace prt {
 /// How transfer is stored by clusters: many of them with a few components each is clustered PCA,
 /// one is PCA, and clusters without components are vector quantisation.
 struct ClusterOptions {
-    std::size_t clusterCount = 256;
-    std::size_t componentCount = 11;  ///< of a cluster, the most where maxError is given; 3, 7, 11,
-                                      ///< … fill attributes of four numbers, as the cluster is one
-    double maxError = 0.0;  ///< as few components as keep this root mean square of the error, over
-                            ///< that of the transfer, before weights are rounded; 0: all
+    std::size_t clusterCount = 64;
+    std::size_t componentCount = 15;  ///< of a cluster; 3, 7, 11, … fill attributes of four
+                                      ///< numbers, of which the cluster is one
+    double maxError = 0.0;  ///< fewer components, if these keep this root mean square of the error,
+                            ///< over that of the transfer, before weights are rounded; 0: all
     std::vector<Vec3d> light{};  ///< errors weigh as they are seen under this light turned at
                                  ///< random, lightErrorWeights; empty: all alike
     TransferEncoding basesEncoding = TransferEncoding::unorm16;

@@ -23,28 +23,45 @@ bool isFinite(const CoefficientTable& coefficients) {
     return true;
 }
 
-CompressedLayer compressLayer(TransferLayer layer, int bandCount, const CompressOptions& options) {
-    const bool isEmpty = layer.coefficients.rowCount() == 0;
-    if (options.budget && !isEmpty)
-        return compressToBudget(layer, options.clusters.value_or(ClusterOptions{}), *options.budget,
-                                options.threadCount, options.progress);
-    CompressedLayer compressed{.transport = layer.transport, .channelCount = layer.channelCount};
-    if (!options.clusters || isEmpty) {
-        compressed.table = quantiseTable(std::move(layer.coefficients), options.encoding);
-        return compressed;
-    }
-    const std::vector<Vec3d>& light = options.clusters->light;
-    std::vector<float> errorWeights;
-    if (!light.empty()) errorWeights = lightErrorWeights(light, bandCount, layer.channelCount);
-    ClusteredTable clustered =
-        compressClusters(layer.coefficients, errorWeights, *options.clusters, options.encoding,
-                         options.threadCount, options.progress);
-    compressed.table = std::move(clustered.table);
-    compressed.bases = std::move(clustered.bases);
-    return compressed;
+/// Whether a layer is stored by its columns, which its numbers can go to.
+bool isByColumns(const TransferLayer& layer, const CompressOptions& options) {
+    return (!options.clusters && !options.budget) || layer.coefficients.rowCount() == 0;
+}
+
+CompressedLayer compressColumns(TransferLayer layer, const CompressOptions& options) {
+    return {.transport = layer.transport,
+            .channelCount = layer.channelCount,
+            .table = quantiseTable(std::move(layer.coefficients), options.encoding)};
+}
+
+void checkLayer(const TransferLayer& layer, int bandCount) {
+    PRT_ASSERT(
+        layer.coefficients.columnCount() == coefficientsPerReceiver(bandCount, layer.channelCount),
+        "the layer has all coefficients");
+    PRT_ASSERT(isFinite(layer.coefficients), "every coefficient is finite");
 }
 
 }  // namespace
+
+CompressedLayer compressLayer(const TransferLayer& layer, int bandCount,
+                              const CompressOptions& options) {
+    checkLayer(layer, bandCount);
+    if (isByColumns(layer, options)) return compressColumns(layer, options);
+    const ClusterOptions clusters = options.clusters.value_or(ClusterOptions{});
+    if (options.budget)
+        return compressToBudget(layer, clusters, *options.budget, options.threadCount,
+                                options.progress);
+    std::vector<float> errorWeights;
+    if (!clusters.light.empty())
+        errorWeights = lightErrorWeights(clusters.light, bandCount, layer.channelCount);
+    ClusteredTable clustered =
+        compressClusters(layer.coefficients, errorWeights, clusters, options.encoding,
+                         options.threadCount, options.progress);
+    return {.transport = layer.transport,
+            .channelCount = layer.channelCount,
+            .table = std::move(clustered.table),
+            .bases = std::move(clustered.bases)};
+}
 
 CompressedTransfer compressTransfer(TransferField field, const CompressOptions& options) {
     CompressedTransfer transfer;
@@ -52,12 +69,15 @@ CompressedTransfer compressTransfer(TransferField field, const CompressOptions& 
     transfer.receiverCount = field.receiverCount;
     transfer.receiverOfVertex = std::move(field.receiverOfVertex);
     for (TransferLayer& layer : field.layers) {
-        PRT_ASSERT(layer.coefficients.rowCount() == field.receiverCount &&
-                       layer.coefficients.columnCount() ==
-                           coefficientsPerReceiver(field.bandCount, layer.channelCount),
-                   "the layer has all coefficients of all receivers");
-        PRT_ASSERT(isFinite(layer.coefficients), "every coefficient is finite");
-        transfer.layers.push_back(compressLayer(std::move(layer), field.bandCount, options));
+        PRT_ASSERT(layer.coefficients.rowCount() == field.receiverCount,
+                   "the layer has all receivers");
+        if (isByColumns(layer, options)) {
+            checkLayer(layer, field.bandCount);
+            transfer.layers.push_back(compressColumns(std::move(layer), options));
+        } else {
+            transfer.layers.push_back(compressLayer(layer, field.bandCount, options));
+            layer.coefficients = {};
+        }
     }
     return transfer;
 }

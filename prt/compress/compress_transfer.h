@@ -27,4 +27,8 @@ struct CompressOptions {
 /// @throws Error  as compressClusters and compressToBudget
 CompressedTransfer compressTransfer(TransferField field, const CompressOptions& options = {});
 
+/// The same of one layer, which stays.
+CompressedLayer compressLayer(const TransferLayer& layer, int bandCount,
+                              const CompressOptions& options = {});
+
 }  // namespace prt
