@@ -177,6 +177,9 @@ class GlbDescription {
             surface["baseColorTexture"] = describeTexture(*material.baseColorTexture);
         surface["metallicFactor"] = clampToUnit(material.metallicFactor);
         surface["roughnessFactor"] = clampToUnit(material.roughnessFactor);
+        if (material.metallicRoughnessTexture)
+            surface["metallicRoughnessTexture"] =
+                describeTexture(*material.metallicRoughnessTexture);
         describeEmission(material, object);
         if (material.alphaMode == AlphaMode::mask) {
             object["alphaMode"] = "MASK";
@@ -230,11 +233,15 @@ class GlbDescription {
             return texture && mesh.uvSets[static_cast<std::size_t>(texture->uvSet)].empty();
         };
         Material material = scene_.materials[mesh.material];
-        if (!lacksUvs(material.baseColorTexture) && !lacksUvs(material.emissiveTexture))
-            return mesh.material;
-        if (lacksUvs(material.baseColorTexture)) material.baseColorTexture.reset();
-        if (lacksUvs(material.emissiveTexture)) material.emissiveTexture.reset();
-        return findOrAdd(materials_, describeMaterial(material));
+        bool isWhole = true;
+        for (std::optional<TextureUse>* texture :
+             {&material.baseColorTexture, &material.metallicRoughnessTexture,
+              &material.emissiveTexture}) {
+            if (!lacksUvs(*texture)) continue;
+            texture->reset();
+            isWhole = false;
+        }
+        return isWhole ? mesh.material : findOrAdd(materials_, describeMaterial(material));
     }
 
     Json describeBinding(const PrimitiveLayout& layout) const {

@@ -188,14 +188,16 @@ void MaterialParser::parseAlpha(const JsonCursor& value, Material& material) {
 }
 
 /// Gives the bound texture one of the two UV sets: one that already
-/// is what it needs, or a free one.
-void assignUvSet(Binding& binding, MaterialRecord& record, std::array<bool, 2>& isTaken) {
+/// is what it needs, or a free one. False where there is neither.
+bool assignUvSet(Binding& binding, MaterialRecord& record, std::array<bool, 2>& isTaken) {
     std::size_t set = std::min<std::size_t>(binding.uvSource.texCoord, 1);
     if (record.uvSources[1 - set] == binding.uvSource) set = 1 - set;
     if (isTaken[set] && record.uvSources[set] != binding.uvSource) set = 1 - set;
+    if (isTaken[set] && record.uvSources[set] != binding.uvSource) return false;
     record.uvSources[set] = binding.uvSource;
     isTaken[set] = true;
     binding.use.uvSet = static_cast<int>(set);
+    return true;
 }
 
 MaterialRecord MaterialParser::parse(const JsonCursor& value) {
@@ -210,18 +212,24 @@ MaterialRecord MaterialParser::parse(const JsonCursor& value) {
     if (findExtension(value, "KHR_materials_emissive_strength"))
         warnings_.add(value.place() + " has an emissive strength, which was left out");
 
+    // A third way to the UVs finds both sets taken, so the texture that matters least comes last.
     std::array<bool, 2> isTaken{};
-    if (const std::optional<JsonCursor> pbr = value.find("pbrMetallicRoughness")) {
-        parseMetallicRoughness(*pbr, material);
-        if (std::optional<Binding> binding = parseTextureInfo(*pbr, "baseColorTexture")) {
-            assignUvSet(*binding, record, isTaken);
-            material.baseColorTexture = binding->use;
+    const auto bindTexture = [&](const JsonCursor& object, const char* key) {
+        std::optional<Binding> binding = parseTextureInfo(object, key);
+        if (binding && !assignUvSet(*binding, record, isTaken)) {
+            warnings_.add(object.place() + "." + key +
+                          " needs a third set of texture coordinates and was left out");
+            binding.reset();
         }
+        return binding ? std::optional(binding->use) : std::nullopt;
+    };
+    const std::optional<JsonCursor> pbr = value.find("pbrMetallicRoughness");
+    if (pbr) {
+        parseMetallicRoughness(*pbr, material);
+        material.baseColorTexture = bindTexture(*pbr, "baseColorTexture");
     }
-    if (std::optional<Binding> binding = parseTextureInfo(value, "emissiveTexture")) {
-        assignUvSet(*binding, record, isTaken);
-        material.emissiveTexture = binding->use;
-    }
+    material.emissiveTexture = bindTexture(value, "emissiveTexture");
+    if (pbr) material.metallicRoughnessTexture = bindTexture(*pbr, "metallicRoughnessTexture");
     return record;
 }
 

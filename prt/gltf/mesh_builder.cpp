@@ -94,7 +94,8 @@ bool usesUvSet(const Material& material, int uvSet) {
     const auto isUse = [uvSet](const std::optional<TextureUse>& texture) {
         return texture && texture->uvSet == uvSet;
     };
-    return isUse(material.baseColorTexture) || isUse(material.emissiveTexture);
+    return isUse(material.baseColorTexture) || isUse(material.emissiveTexture) ||
+           isUse(material.metallicRoughnessTexture);
 }
 
 void readUvSets(const Model& model, const Primitive& primitive, Mesh& mesh, Warnings& warnings) {

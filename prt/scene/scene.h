@@ -35,7 +35,7 @@ struct TextureImage {
 
 enum class AlphaMode { opaque, mask, blend };
 
-/// What a diffuse bake needs of a glTF material, and what is carried through it untouched.
+/// What bakes need of a glTF material, and what is carried through them untouched.
 struct Material {
     std::string name;
     /// Linear; rgb is the diffuse albedo, metallic or not.
@@ -45,6 +45,8 @@ struct Material {
     std::optional<TextureUse> emissiveTexture;
     float metallicFactor = 0.0f;
     float roughnessFactor = 1.0f;
+    /// Factors of both: green of roughness, blue of metallic, as they stand in the file (no sRGB).
+    std::optional<TextureUse> metallicRoughnessTexture;
     AlphaMode alphaMode = AlphaMode::opaque;  ///< blend is opaque to the bake
     float alphaCutoff = 0.5f;
     bool doubleSided = false;

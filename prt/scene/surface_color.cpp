@@ -32,21 +32,24 @@ int wrapTexel(int texel, int size, TextureWrap wrap) {
     return std::clamp(texel, 0, size - 1);
 }
 
-Vec4f decodeTexel(const Rgba8& texel) {
+Vec4f decodeTexel(const Rgba8& texel, TexelCurve curve) {
+    if (curve == TexelCurve::linear)
+        return Vec4f(texel.red, texel.green, texel.blue, texel.alpha) / 255.0f;
     return Vec4f(decodeSrgb8(texel.red), decodeSrgb8(texel.green), decodeSrgb8(texel.blue),
                  static_cast<float>(texel.alpha) / 255.0f);
 }
 
-Vec4f sampleNearest(const Rgba8Image& image, float u, float v) {
+Vec4f sampleNearest(const Rgba8Image& image, TexelCurve curve, float u, float v) {
     const int x = std::min(static_cast<int>(u * static_cast<float>(image.width)), image.width - 1);
     const int y =
         std::min(static_cast<int>(v * static_cast<float>(image.height)), image.height - 1);
-    return decodeTexel(image.at(x, y));
+    return decodeTexel(image.at(x, y), curve);
 }
 
 // Blends the four texels around the point after decoding them: light
 // adds linearly, code values do not.
-Vec4f sampleLinear(const Rgba8Image& image, const TextureUse& texture, float u, float v) {
+Vec4f sampleLinear(const Rgba8Image& image, const TextureUse& texture, TexelCurve curve, float u,
+                   float v) {
     const float x = u * static_cast<float>(image.width) - 0.5f;
     const float y = v * static_cast<float>(image.height) - 0.5f;
     const int left = static_cast<int>(std::floor(x));
@@ -57,37 +60,39 @@ Vec4f sampleLinear(const Rgba8Image& image, const TextureUse& texture, float u, 
     const int x1 = wrapTexel(left + 1, image.width, texture.wrapU);
     const int y0 = wrapTexel(top, image.height, texture.wrapV);
     const int y1 = wrapTexel(top + 1, image.height, texture.wrapV);
-    const Vec4f upper =
-        decodeTexel(image.at(x0, y0)) * (1.0f - toRight) + decodeTexel(image.at(x1, y0)) * toRight;
-    const Vec4f lower =
-        decodeTexel(image.at(x0, y1)) * (1.0f - toRight) + decodeTexel(image.at(x1, y1)) * toRight;
+    const auto texelAt = [&](int column, int row) {
+        return decodeTexel(image.at(column, row), curve);
+    };
+    const Vec4f upper = texelAt(x0, y0) * (1.0f - toRight) + texelAt(x1, y0) * toRight;
+    const Vec4f lower = texelAt(x0, y1) * (1.0f - toRight) + texelAt(x1, y1) * toRight;
     return upper * (1.0f - toBottom) + lower * toBottom;
 }
 
 /// The texture where the surface has coordinates for it, white elsewhere.
 Vec4f sampleAt(const Scene& scene, const std::optional<TextureUse>& texture,
-               const SurfacePoint& point) {
+               const SurfacePoint& point, TexelCurve curve) {
     if (!texture) return kWhite;
     const Mesh& mesh = scene.meshes[point.mesh];
     const std::span<const Vec2f> uvs = mesh.uvSets[texture->uvSet == 1 ? 1 : 0];
     if (uvs.empty()) return kWhite;
-    return sampleTexture(scene, *texture, interpolateCorners(mesh, point, uvs));
+    return sampleTexture(scene, *texture, interpolateCorners(mesh, point, uvs), curve);
 }
 
-// A reflectance; what is not a number becomes 0.
-float clampReflectance(float value) {
+// A reflectance, or a factor like one; what is not a number becomes 0.
+float clampToUnit(float value) {
     return std::min(std::max(0.0f, value), 1.0f);
 }
 
 }  // namespace
 
-Vec4f sampleTexture(const Scene& scene, const TextureUse& texture, const Vec2f& uv) {
+Vec4f sampleTexture(const Scene& scene, const TextureUse& texture, const Vec2f& uv,
+                    TexelCurve curve) {
     const Rgba8Image& image = scene.images[texture.image].pixels;
     if (image.pixels.empty()) return kWhite;
     const float u = wrapCoordinate(uv.x, texture.wrapU);
     const float v = wrapCoordinate(uv.y, texture.wrapV);
-    return texture.filter == TextureFilter::nearest ? sampleNearest(image, u, v)
-                                                    : sampleLinear(image, texture, u, v);
+    return texture.filter == TextureFilter::nearest ? sampleNearest(image, curve, u, v)
+                                                    : sampleLinear(image, texture, curve, u, v);
 }
 
 Vec4f evaluateBaseColor(const Scene& scene, const SurfacePoint& point) {
@@ -97,9 +102,8 @@ Vec4f evaluateBaseColor(const Scene& scene, const SurfacePoint& point) {
     Vec4f color = material.baseColorFactor;
     if (!mesh.colors.empty())
         color *= interpolateCorners(mesh, point, std::span<const Vec4f>(mesh.colors));
-    color *= sampleAt(scene, material.baseColorTexture, point);
-    return Vec4f(clampReflectance(color.x), clampReflectance(color.y), clampReflectance(color.z),
-                 color.w);
+    color *= sampleAt(scene, material.baseColorTexture, point, TexelCurve::srgb);
+    return Vec4f(clampToUnit(color.x), clampToUnit(color.y), clampToUnit(color.z), color.w);
 }
 
 Vec3f evaluateAlbedo(const Scene& scene, const SurfacePoint& point) {
@@ -109,8 +113,16 @@ Vec3f evaluateAlbedo(const Scene& scene, const SurfacePoint& point) {
 
 Vec3f evaluateEmission(const Scene& scene, const SurfacePoint& point) {
     const Material& material = scene.materials[scene.meshes[point.mesh].material];
-    const Vec4f texel = sampleAt(scene, material.emissiveTexture, point);
+    const Vec4f texel = sampleAt(scene, material.emissiveTexture, point, TexelCurve::srgb);
     return material.emissiveFactor * Vec3f(texel.x, texel.y, texel.z);
+}
+
+MetallicRoughness evaluateMetallicRoughness(const Scene& scene, const SurfacePoint& point) {
+    const Material& material = scene.materials[scene.meshes[point.mesh].material];
+    const Vec4f texel =
+        sampleAt(scene, material.metallicRoughnessTexture, point, TexelCurve::linear);
+    return {.metallic = clampToUnit(material.metallicFactor * texel.z),
+            .roughness = clampToUnit(material.roughnessFactor * texel.y)};
 }
 
 bool isMasked(const Material& material) {

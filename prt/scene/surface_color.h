@@ -38,8 +38,24 @@ Vec3f evaluateAlbedo(const Scene& scene, const SurfacePoint& point);
 /// Emitted radiance: factor × texture, linear [glTF 2.0, 3.9.3], W·sr⁻¹·m⁻².
 Vec3f evaluateEmission(const Scene& scene, const SurfacePoint& point);
 
+/// How metallic and how rough a surface is, each in [0, 1].
+struct MetallicRoughness {
+    float metallic = 0.0f;
+    float roughness = 1.0f;
+};
+
+/// Factors × texture [glTF 2.0, 3.9.2]. An undecoded texture counts as white.
+MetallicRoughness evaluateMetallicRoughness(const Scene& scene, const SurfacePoint& point);
+
+/// What the code values of a texture's red, green and blue stand for.
+enum class TexelCurve {
+    srgb,    ///< colours
+    linear,  ///< data
+};
+
 /// One linear RGBA sample of a texture, with its wrap modes and filter.
-Vec4f sampleTexture(const Scene& scene, const TextureUse& texture, const Vec2f& uv);
+Vec4f sampleTexture(const Scene& scene, const TextureUse& texture, const Vec2f& uv,
+                    TexelCurve curve = TexelCurve::srgb);
 
 /// Whether the material's texture or vertex alpha can let light through (alpha mode "mask").
 bool isMasked(const Material& material);

@@ -71,6 +71,7 @@ Scene richScene() {
                                           TextureWrap::mirroredRepeat, TextureFilter::nearest};
     painted.emissiveFactor = Vec3f(0.5f, 0.25f, 0.125f);
     painted.emissiveTexture = TextureUse{1, 1};
+    painted.metallicRoughnessTexture = TextureUse{1, 0, TextureWrap::mirroredRepeat};
     painted.metallicFactor = 0.5f;
     painted.roughnessFactor = 0.25f;
     painted.alphaMode = AlphaMode::mask;
@@ -124,6 +125,7 @@ void expectSameMaterial(const Material& a, const Material& b) {
     EXPECT_EQ(a.doubleSided, b.doubleSided);
     expectSameTexture(a.baseColorTexture, b.baseColorTexture);
     expectSameTexture(a.emissiveTexture, b.emissiveTexture);
+    expectSameTexture(a.metallicRoughnessTexture, b.metallicRoughnessTexture);
 }
 
 void expectSameMesh(const Mesh& a, const Mesh& b) {
@@ -209,6 +211,7 @@ TEST(GlbWriter, EveryByteOfTheBufferLiesInOneView) {
 TEST(GlbWriter, EqualTexturesAndSamplersAreSharedAndEmptyListsAreLeftOut) {
     Scene scene = richScene();
     scene.materials[0].emissiveTexture = scene.materials[0].baseColorTexture;
+    scene.materials[0].metallicRoughnessTexture = scene.materials[0].baseColorTexture;
     const GlbFile rich = splitGlb(encodeGlb(scene));
     EXPECT_EQ(rich.json["textures"].size(), 1u);
     EXPECT_EQ(rich.json["samplers"].size(), 1u);
@@ -240,7 +243,8 @@ TEST(GlbWriter, ATextureWithoutUvsIsLeftOutForThatMeshAlone) {
     const Scene read = writeAndRead(scene);
     EXPECT_TRUE(read.materials[read.meshes[0].material].baseColorTexture);
     const Material& material = read.materials[read.meshes[1].material];
-    EXPECT_FALSE(material.baseColorTexture || material.emissiveTexture);
+    EXPECT_FALSE(material.baseColorTexture || material.emissiveTexture ||
+                 material.metallicRoughnessTexture);
     EXPECT_EQ(material.baseColorFactor, scene.materials[0].baseColorFactor);
 }
 

@@ -180,6 +180,52 @@ TEST(GltfMaterial, AFourthUvSetTakesThePlaceOfTheSecond) {
     EXPECT_EQ(scene.meshes.at(0).uvSets[static_cast<std::size_t>(set)][2], Vec2f(0.5f, 0.75f));
 }
 
+TEST(GltfMaterial, TheMetallicRoughnessTextureKeepsItsImageAndUvSet) {
+    const Scene scene =
+        makeTexturedFile({{"pbrMetallicRoughness",
+                           {{"metallicRoughnessTexture", {{"index", 0}, {"texCoord", 1}}}}}})
+            .read();
+    const Material& material = scene.materials.at(0);
+    ASSERT_TRUE(material.metallicRoughnessTexture);
+    EXPECT_FALSE(material.baseColorTexture);
+    EXPECT_EQ(material.metallicRoughnessTexture->uvSet, 1);
+    EXPECT_EQ(material.metallicRoughnessTexture->wrapU, TextureWrap::clampToEdge);
+    const TextureImage& png = scene.images.at(material.metallicRoughnessTexture->image);
+    EXPECT_EQ(png.encoded.size(), kPng.size());
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfMaterial, AThirdWayToTheUvsIsLeftOutWithAWarning) {
+    const auto scaled = [](int index, double scale) {
+        return Json{{"index", index},
+                    {"extensions", {{"KHR_texture_transform", {{"scale", {scale, scale}}}}}}};
+    };
+    const auto read = [&](double roughnessScale) {
+        return makeTexturedFile({{"pbrMetallicRoughness",
+                                  {{"baseColorTexture", scaled(0, 2.0)},
+                                   {"metallicRoughnessTexture", scaled(1, roughnessScale)}}},
+                                 {"emissiveTexture", scaled(0, 3.0)}})
+            .read();
+    };
+    const Scene shared = read(3.0);
+    ASSERT_TRUE(shared.materials.at(0).metallicRoughnessTexture);
+    EXPECT_EQ(shared.materials[0].metallicRoughnessTexture->uvSet,
+              shared.materials[0].emissiveTexture->uvSet);
+    EXPECT_TRUE(shared.warnings.empty());
+    const Scene third = read(4.0);
+    EXPECT_TRUE(third.materials.at(0).baseColorTexture && third.materials[0].emissiveTexture);
+    EXPECT_FALSE(third.materials[0].metallicRoughnessTexture);
+    ASSERT_EQ(third.warnings.size(), 1u);
+    EXPECT_NE(third.warnings[0].find("metallicRoughnessTexture"), std::string::npos);
+}
+
+TEST(GltfMaterial, AMetallicRoughnessTextureThatIsNotThereIsRefused) {
+    EXPECT_THROW(
+        makeTexturedFile({{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 2}}}}}})
+            .read(),
+        Error);
+}
+
 TEST(GltfMaterial, AMissingUvSetIsTakenForZeroWithAWarning) {
     GltfBuilder builder = makeTexturedFile(
         {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}});

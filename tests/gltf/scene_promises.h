@@ -45,7 +45,8 @@ inline void expectMeshKeepsItsPromises(const Scene& scene, const Mesh& mesh) {
     }));
     if (mesh.material >= scene.materials.size()) return;
     const Material& material = scene.materials[mesh.material];
-    for (const auto& texture : {material.baseColorTexture, material.emissiveTexture}) {
+    for (const auto& texture :
+         {material.baseColorTexture, material.metallicRoughnessTexture, material.emissiveTexture}) {
         if (!texture) continue;
         ASSERT_TRUE(texture->uvSet == 0 || texture->uvSet == 1);
         EXPECT_EQ(mesh.uvSets[static_cast<std::size_t>(texture->uvSet)].size(), count);

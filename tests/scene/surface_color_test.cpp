@@ -194,6 +194,37 @@ TEST(BaseColor, IsAReflectanceWhateverTheFileSays) {
     EXPECT_EQ(evaluateBaseColor(scene, {}), Vec4f(1.0f, 0.0f, 0.0f, 0.5f));
 }
 
+TEST(MetallicRoughness, IsFactorsTimesBlueAndGreenWithoutSrgb) {
+    Rgba8Image image(2, 1);
+    image.at(0, 0) = {255, 51, 204, 255};
+    image.at(1, 0) = {0, 102, 0, 0};
+    Scene scene = makeTexturedTriangle(image);
+    Material& material = scene.materials[0];
+    material.metallicRoughnessTexture = material.baseColorTexture;
+    material.metallicFactor = 0.5f;
+    material.roughnessFactor = 0.75f;
+    const MetallicRoughness texel = evaluateMetallicRoughness(scene, {0, 0, 0.25f, 0.5f});
+    EXPECT_NEAR(texel.metallic, 0.5f * 0.8f, kRounding);
+    EXPECT_NEAR(texel.roughness, 0.75f * 0.2f, kRounding);
+    const MetallicRoughness between = evaluateMetallicRoughness(scene, {0, 0, 0.5f, 0.25f});
+    EXPECT_NEAR(between.metallic, 0.5f * 0.4f, kRounding);
+    EXPECT_NEAR(between.roughness, 0.75f * 0.3f, kRounding);
+}
+
+TEST(MetallicRoughness, IsTheFactorsWithoutATextureAndWithinBoundsWhateverTheFileSays) {
+    Scene scene = makeTexturedTriangle(Rgba8Image{});
+    Material& material = scene.materials[0];
+    material.metallicFactor = 0.25f;
+    material.roughnessFactor = 0.125f;
+    EXPECT_EQ(evaluateMetallicRoughness(scene, {}).metallic, 0.25f);
+    EXPECT_EQ(evaluateMetallicRoughness(scene, {}).roughness, 0.125f);
+    material.metallicRoughnessTexture = TextureUse{};
+    material.metallicFactor = 7.0f;
+    material.roughnessFactor = kNan;
+    EXPECT_EQ(evaluateMetallicRoughness(scene, {}).metallic, 1.0f);
+    EXPECT_EQ(evaluateMetallicRoughness(scene, {}).roughness, 0.0f);
+}
+
 TEST(BaseColor, OnlyTheMaskModeLetsLightThrough) {
     Material material;
     EXPECT_FALSE(isMasked(material));
