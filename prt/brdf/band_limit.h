@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "prt/brdf/brdf_matrix.h"
+
+namespace prt {
+
+/// What bands lose of a BRDF: the L2 norm of the difference between g(ω_i, ω_o) = f_r max(cos θ_i,
+/// 0) and what its coefficients say, over the norm of g, all channels together. More bands never
+/// lose more.
+struct BandLimitError {
+    /// With bands for ω_i alone, as projectBrdfView has them, over all views above the horizon: how
+    /// well the lobe itself is held. It has a floor, at the roughest, in the horizon's crease.
+    double incident = 0.0;
+    /// With bands for both, as projectBrdf has them. g is 0 for views below the horizon, and the
+    /// coefficients spend much on that step: 0.25 of a Lambert BRDF at 5 bands.
+    double matrix = 0.0;
+};
+
+BandLimitError measureBandLimitError(const Brdf& brdf, const BrdfProjectionOptions& options = {});
+
+/// The least roughness at which n bands hold a GGX lobe (F = 1) with a BandLimitError::incident of
+/// at most maxError; nothing if they do not at roughness 1. What is smoother is better split off.
+///
+/// @param maxError  > 0
+std::optional<double> findLeastRoughnessHeld(int bandCount, double maxError,
+                                             const LobeQuadratureOptions& quadrature = {});
+
+}  // namespace prt
