@@ -157,6 +157,17 @@ void writePictures(const SeedFolder& seeds) {
         seeds.write("exr", name, bytes);
 }
 
+void writeMerl(const SeedFolder& seeds) {
+    std::string header;
+    for (const std::int32_t size : {90, 90, 180})
+        prt::test::append(header, size);
+    std::string values = header;
+    for (const double value : {477.5, 0.0, -1.0})
+        prt::test::append(values, value);
+    seeds.write("merl", "header", header);
+    seeds.write("merl", "values", values);
+}
+
 void writeLights(const SeedFolder& seeds) {
     prt::Lighting lighting(2);
     lighting.coefficients = {{3.5, 3.5, 3.5}, {1e-3, 0.0, -2.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}};
@@ -194,6 +205,7 @@ int main(int argumentCount, char** arguments) {
     writeObj(seeds);
     writePly(seeds);
     writePictures(seeds);
+    writeMerl(seeds);
     writeLights(seeds);
     writeCheckpoints(seeds);
     return 0;
