@@ -12,6 +12,8 @@ namespace {
 
 // What rounding in the bake and in expansion may add, relative to the bound.
 constexpr double kTolerance = 1e-3;
+// What clusters may add, whose sums of few vectors can be off by a large part of a coefficient.
+constexpr double kToleranceOfClusters = 0.5;
 // More unlit vertices than closed solids standing in each other usually have.
 constexpr double kSuspiciousDarkShare = 0.25;
 
@@ -31,7 +33,7 @@ std::vector<double> coefficientBounds(int bandCount) {
 }
 
 LayerCounts countDoubts(std::span<const float> values, int channelCount,
-                        const std::vector<double>& bounds) {
+                        const std::vector<double>& bounds, double tolerance) {
     LayerCounts counts;
     const std::size_t rowLength = bounds.size() * static_cast<std::size_t>(channelCount);
     for (std::size_t row = 0; row < values.size(); row += rowLength) {
@@ -41,9 +43,9 @@ LayerCounts countDoubts(std::span<const float> values, int channelCount,
         for (std::size_t column = 0; column < rowLength; ++column) {
             const std::size_t i = column % bounds.size();
             const double value = values[row + column];
-            isTooLarge |= std::abs(value) > bounds[i] * (1.0 + kTolerance);
+            isTooLarge |= std::abs(value) > bounds[i] * (1.0 + tolerance);
             if (i > 0) continue;
-            isNegative |= value < -bounds[0] * kTolerance;
+            isNegative |= value < -bounds[0] * tolerance;
             isDark &= value <= bounds[0] * kTolerance;
         }
         counts.tooLarge += isTooLarge;
@@ -57,7 +59,8 @@ void reportLayer(const Asset& asset, const CompressedLayer& layer,
                  std::vector<std::string>& problems) {
     const std::vector<float> values = expandLayer(layer);
     const LayerCounts counts =
-        countDoubts(values, layer.channelCount, coefficientBounds(asset.transfer.bandCount));
+        countDoubts(values, layer.channelCount, coefficientBounds(asset.transfer.bandCount),
+                    layer.bases ? kToleranceOfClusters : kTolerance);
     const std::string ofVertices =
         " of " + std::to_string(asset.transfer.receiverCount) + " vertices ";
     const std::string where = "layer " + std::string(transportName(layer.transport)) + ": ";

@@ -56,5 +56,16 @@ TEST(CheckAsset, ManyUnlitVerticesAreDoubtedAndFewAreNot) {
     EXPECT_TRUE(findAssetProblems(asset).empty());
 }
 
+TEST(CheckAsset, ClustersMayBeOffByAPartOfACoefficientAndNoMore) {
+    for (const float excess : {1.2f, 2.0f}) {
+        Asset asset = assetWith({0.0f});  // four vertices of cluster 0
+        CompressedLayer& layer = asset.transfer.layers[0];
+        layer.bases.emplace().componentCounts = {0};
+        layer.bases->vectors.numbers =
+            makeTable(4, std::vector<float>{excess * kWhiteMean, 0.0f, 0.0f, 0.0f});
+        EXPECT_EQ(findAssetProblems(asset).size(), excess < 1.5f ? 0u : 1u);
+    }
+}
+
 }  // namespace
 }  // namespace prt
