@@ -64,6 +64,124 @@ TEST_F(CliCompress, OneKindOfTransportCanBeKeptAlone) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.prt.glb"));
 }
 
+/// The number behind some words, as "… error 0.5 % of the transfer" has it.
+double numberAfter(const std::string& text, const std::string& words) {
+    const std::size_t at = text.find(words);
+    EXPECT_NE(at, std::string::npos) << words << " in " << text;
+    return at == std::string::npos ? 0.0 : std::stod(text.substr(at + words.size()));
+}
+
+TEST_F(CliCompress, EveryMethodOfClustersMakesAnAssetThatIsRelit) {
+    run({"render", "float.prt.glb", "--light", "sun:40,50,20", "-o", "float.exr", "--size",
+         "64x36"});
+    for (const std::string method : {"pca", "vq", "cpca"}) {
+        const std::string errors =
+            run({"compress", "float.prt.glb", "-o", "small.prt.glb", "--method", method}).errors;
+        EXPECT_EQ(run({"check", "small.prt.glb"}).output, "ok\n");
+        const Json layers = info("small.prt.glb").at("layers");
+        ASSERT_EQ(layers.size(), 2u);
+        for (const Json& layer : layers) {
+            const int asked = method == "pca" ? 1 : method == "vq" ? 256 : 64;
+            EXPECT_LE(int(layer.at("clusters")), asked);
+            EXPECT_GE(int(layer.at("clusters")), asked * 3 / 4) << "those that no vertex needs";
+            EXPECT_EQ(layer.at("bytes_per_vertex"), 1 + int(layer.at("components")));
+            EXPECT_EQ(layer.at("shared_bytes"),
+                      2 * int(layer.at("vectors")) * 9 * int(layer.at("channels")));
+        }
+        EXPECT_NE(run({"info", "small.prt.glb"}).output.find("clusters"), std::string::npos);
+        run({"render", "small.prt.glb", "--light", "sun:40,50,20", "-o", method + ".exr", "--size",
+             "64x36"});
+        EXPECT_NE(readText(folder.path() / (method + ".exr")),
+                  readText(folder.path() / "float.exr"));
+    }
+}
+
+TEST_F(CliCompress, ABakeByClustersWritesWhatCompressingItsFloatsDoes) {
+    const std::vector<std::string> method = {"--method",     "cpca", "--clusters", "20",
+                                             "--components", "3",    "--weigh-by", "sun:40,50,20"};
+    std::vector<std::string> bake = {"bake",      "scene.glb", "-o",      "baked.prt.glb",
+                                     "--samples", "32",        "--bands", "3"};
+    std::vector<std::string> compress = {"compress", "float.prt.glb", "-o", "small.prt.glb"};
+    bake.insert(bake.end(), method.begin(), method.end());
+    compress.insert(compress.end(), method.begin(), method.end());
+    const std::string told = run(bake).errors;
+    EXPECT_NE(told.find("% as seen under sun:40,50,20"), std::string::npos) << told;
+    const std::string toldAgain = run(compress).errors;
+    EXPECT_NE(toldAgain.find("% as seen under sun:40,50,20"), std::string::npos) << toldAgain;
+    for (const std::string name : {"baked", "small"}) {
+        EXPECT_NE(info(name + ".prt.glb")
+                      .at("provenance")
+                      .dump()
+                      .find("--method cpca --clusters 20 --components 3 --weigh-by sun:40,50,20"),
+                  std::string::npos);
+        EXPECT_EQ(info(name + ".prt.glb").at("layers")[1].at("bytes_per_vertex"), 4);
+    }
+}
+
+TEST_F(CliCompress, ThreadsDoNotChangeAByte) {
+    for (const std::string threads : {"1", "3"})
+        run({"compress", "float.prt.glb", "-o", threads + ".prt.glb", "--method", "cpca",
+             "--threads", threads});
+    EXPECT_EQ(readText(folder.path() / "1.prt.glb"), readText(folder.path() / "3.prt.glb"));
+}
+
+TEST_F(CliCompress, ABudgetOfBytesOrOfErrorIsKept) {
+    const auto compress = [&](const std::string& option, const std::string& value) {
+        return run({"compress", "float.prt.glb", "-o", "out.prt.glb", "--transport", "shadowed",
+                    option, value})
+            .errors;
+    };
+    compress("--bytes-per-vertex", "7");
+    Json asset = info("out.prt.glb");
+    Json layer = asset.at("layers").at(0);
+    const double shared = layer.value("shared_bytes", 0.0) / double(asset.at("vertices"));
+    EXPECT_LE(double(layer.at("bytes_per_vertex")) + shared, 7.0);
+
+    const std::string told = compress("--max-error", "0.02");
+    EXPECT_LE(numberAfter(told, "error "), 2.0);
+    EXPECT_GT(numberAfter(told, "error "), 0.0);
+    EXPECT_LT(int(info("out.prt.glb").at("layers").at(0).at("bytes_per_vertex")), 9);
+}
+
+TEST_F(CliCompress, OptionsThatContradictEachOtherAreWrongUsage) {
+    const std::vector<std::vector<std::string>> all = {
+        {"--method", "u8", "--clusters", "4"},
+        {"--method", "pca", "--clusters", "4"},
+        {"--method", "vq", "--components", "3"},
+        {"--method", "vq", "--weights", "u8"},
+        {"--method", "u16", "--max-error", "0.1"},
+        {"--method", "vq", "--bytes-per-vertex", "8"},
+        {"--bytes-per-vertex", "16", "--max-error", "0.1"},
+        {"--bytes-per-vertex", "16", "--components", "3"},
+        {"--bytes-per-vertex", "1"},
+        {"--clusters", "257", "--weights", "u8"},
+        {"--clusters", "0"},
+        {"--max-error", "0"},
+        {"--weigh-by", "uniform:0"},
+    };
+    for (const std::vector<std::string>& options : all)
+        for (const std::string command : {"compress", "bake"}) {
+            std::vector<std::string> arguments = {
+                command, command == "bake" ? "scene.glb" : "float.prt.glb", "-o", "out.prt.glb"};
+            arguments.insert(arguments.end(), options.begin(), options.end());
+            const CommandResult result = runPrt(folder, arguments);
+            EXPECT_EQ(result.exitCode, 2) << result.errors;
+            EXPECT_NE(result.errors.find("prt: error: "), std::string::npos) << result.errors;
+            EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.prt.glb"));
+        }
+}
+
+TEST_F(CliCompress, AnInterruptLeavesNothing) {
+    const PrtProcess compress(
+        folder, {"compress", "float.prt.glb", "-o", "out.prt.glb", "--max-error", "0.0001"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    compress.sendSignal(SIGINT);
+    const CommandResult result = compress.wait();
+    EXPECT_EQ(result.exitCode, 75) << result.errors;
+    EXPECT_NE(result.errors.find("prt: interrupted"), std::string::npos) << result.errors;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.prt.glb"));
+}
+
 TEST_F(CliCompress, WrongInputIsOneSentenceAndNoFile) {
     writeText(folder.path() / "text.prt.glb", "not an asset");
     const auto refuse = [&](const std::vector<std::string>& arguments, int exitCode) {
