@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "prt/base/error.h"
+#include "prt/compress/cluster_encoding.h"
 #include "prt/compress/compress_transfer.h"
 #include "tests/support/sample_vectors.h"
 #include "tests/support/scatter_matrix.h"
@@ -226,8 +227,6 @@ TEST(CompressClusters, WeightsOfBytesAreWithinHalfAStep) {
 }
 
 TEST(CompressClusters, WeightsMakeUpForTheRoundingOfTheBases) {
-    // Of five components with bases of eight bits, all that rounding turns within their span is
-    // made up for; and words cost nothing that could be seen.
     constexpr std::size_t kDimension = 12;
     const std::vector<float> rows = makeRows(2000, kDimension);
     ClusterOptions options = floatBases(8, 6);
@@ -237,13 +236,24 @@ TEST(CompressClusters, WeightsMakeUpForTheRoundingOfTheBases) {
     EXPECT_LE(measureError(rows, compressClusters(table, {}, options, kFloat)), 1.0001 * exact);
     EXPECT_LE(measureError(rows, compressClusters(table, {}, options, kWords)), 1.0002 * exact);
 
-    // The same weights as for the exact bases would leave more.
+    // Bases of eight bits are no longer orthogonal, and still no weights are better.
     options.basesEncoding = kBytes;
     const ClusteredTable coarse = compressClusters(table, {}, options, kFloat);
-    options.basesEncoding = kFloat;
-    ClusteredTable mixed = compressClusters(table, {}, options, kFloat);
-    mixed.bases = coarse.bases;
-    EXPECT_LT(measureError(rows, coarse), measureError(rows, mixed));
+    const std::vector<std::uint32_t> clusters = clustersOf(coarse);
+    const std::vector<float> stored = expandClustered(coarse);
+    const std::vector<float> weights = expandTable(coarse.table);
+    std::size_t checkedCount = 0;
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+        const auto own = std::span(weights).subspan(i * 7 + 1, 6);
+        if (!std::ranges::all_of(own, [](float w) { return w > 0.0f && w < 1.0f; })) continue;
+        const auto row = std::span(rows).subspan(i * kDimension, kDimension);
+        const std::vector<double> back(&stored[i * kDimension],
+                                       &stored[i * kDimension] + kDimension);
+        const double least = leastError(row, coarse, clusters[i]);
+        EXPECT_LE(squaredDistance(row, back), least + 1e-6 * (1.0 + least));
+        ++checkedCount;
+    }
+    EXPECT_GT(checkedCount, clusters.size() / 2);
 }
 
 TEST(CompressClusters, ThreadsAndTheDiskDoNotChangeAByte) {
@@ -295,6 +305,25 @@ TEST(CompressClusters, AMaxErrorIsKeptWithFewerVectors) {
                   maxError * (1.0 + kErrorTolerance));
         EXPECT_LT(clustered.bases.vectors.numbers.rowCount(), vectorCount);
     }
+}
+
+TEST(CompressClusters, ClustersAndComponentsThatNoRowNeedsAreLeftOut) {
+    // No row is near the second mean, and those near the third are all there.
+    const CoefficientTable table = makeTable(2, std::vector<float>{1, 0, 2, 0, 3, 0, 9, 5, 9, 5});
+    const Clusters clusters{.dimension = 2,
+                            .means = {2, 0, 50, 0, 9, 5},
+                            .components = {1, 0, 0, 1, 0, 1},
+                            .firstComponent = {0, 1, 2, 3}};
+    const ProgressCallback nobody;
+    ProgressReporter reporter(nobody, "encode", "receivers", 10);
+    const RowEncoding encoding{table, {}, 1, reporter};
+    RowAssignment assignment = assignRows(encoding, clusters);
+    EXPECT_EQ(assignment.counts, (std::vector<std::size_t>{3, 0, 2}));
+    const ClusterBases bases = foldRanges(clusters, kFloat, assignment);
+    EXPECT_EQ(assignment.labels, (std::vector<std::uint32_t>{0, 0, 0, 1, 1}));
+    EXPECT_EQ(bases.componentCounts, (std::vector<std::uint32_t>{1, 0}));
+    // From where the weights begin, and as long as they reach.
+    EXPECT_EQ(expandTable(bases.vectors), (std::vector<float>{1, 0, 2, 0, 9, 5}));
 }
 
 TEST(CompressClusters, LongRowsOfTransferMatricesAreRowsLikeOthers) {
