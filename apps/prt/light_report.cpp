@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/prt/picture.h"
 #include "prt/base/file.h"
 #include "prt/image/false_color.h"
 #include "prt/image/tone_curve.h"
@@ -130,16 +131,6 @@ Image drawLargestWavelets(const WaveletLighting& wavelets, std::size_t count) {
     for (Vec3f& texel : cube.radiance.pixels)
         texel = Vec3f(std::max(texel.x, 0.0f), std::max(texel.y, 0.0f), std::max(texel.z, 0.0f));
     return resample(cube, SphereMap::latLong, kPictureWidth, kPictureWidth / 2).radiance;
-}
-
-/// The exposure under which the brightest side of a white diffuse sphere comes to 0.8.
-float chooseExposure(const Lighting& lighting) {
-    constexpr double kBrightest = 0.8;
-    double brightest = 0.0;
-    const Image irradiance = reconstructLatLong(convolveWithCosine(truncate(lighting, 3)), 64);
-    for (const Vec3f& value : irradiance.pixels)
-        brightest = std::max(brightest, luminance(Vec3d(value)) * std::numbers::inv_pi);
-    return brightest > 0.0 ? static_cast<float>(std::log2(kBrightest / brightest)) : 0.0f;
 }
 
 /// A unit sphere before the camera, which looks along −z.

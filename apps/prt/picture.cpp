@@ -1,7 +1,13 @@
 #include "apps/prt/picture.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "apps/prt/arguments.h"
 #include "prt/io/image_io.h"
+#include "prt/light/environment.h"
+#include "prt/light/irradiance.h"
 
 namespace prt::cli {
 
@@ -14,6 +20,15 @@ void writePicture(const std::string& path, const Image& radiance, const DisplayO
         writeExr(path, radiance);
     else
         writePng(path, encodeForDisplay(radiance, display));
+}
+
+float chooseExposure(const Lighting& lighting) {
+    constexpr double kBrightest = 0.8;
+    double brightest = 0.0;
+    const Image irradiance = reconstructLatLong(convolveWithCosine(truncate(lighting, 3)), 64);
+    for (const Vec3f& value : irradiance.pixels)
+        brightest = std::max(brightest, luminance(Vec3d(value)) * std::numbers::inv_pi);
+    return brightest > 0.0 ? static_cast<float>(std::log2(kBrightest / brightest)) : 0.0f;
 }
 
 }  // namespace prt::cli

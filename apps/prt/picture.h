@@ -5,6 +5,7 @@
 
 #include "prt/image/image.h"
 #include "prt/image/tone_curve.h"
+#include "prt/light/lighting.h"
 
 namespace prt::cli {
 
@@ -18,5 +19,8 @@ bool isExr(const std::string& path);
 /// say. @throws Error writeFailed
 void writePicture(const std::string& path, const Image& radiance,
                   const DisplayOptions& display = {});
+
+/// The exposure in stops under which the brightest side of a white diffuse sphere comes to 0.8.
+float chooseExposure(const Lighting& lighting);
 
 }  // namespace prt::cli

@@ -53,7 +53,7 @@ std::vector<double> listMarks(const Axis& axis) {
     return marks;
 }
 
-Axis spanAxis(std::span<const PlotSeries> series, double PlotPoint::* coordinate, double begin,
+Axis spanAxis(std::span<const PlotSeries> series, double PlotPoint::*coordinate, double begin,
               double end) {
     double low = std::numeric_limits<double>::max(), high = 0.0;
     for (const PlotSeries& line : series)
@@ -92,9 +92,8 @@ std::string drawSeries(const PlotSeries& line, const Axis& x, const Axis& y, con
             "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"{}\"><title>{}</title></circle>\n",
             x.place(point.x), y.place(point.y), color, escapeHtml(point.label));
     }
-    return fmt::format(
-               "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path,
-               color) +
+    return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n",
+                       path, color) +
            dots;
 }
 
