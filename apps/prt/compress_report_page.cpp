@@ -22,7 +22,7 @@ std::string formatDecibels(double decibels) {
 }
 
 std::string formatError(double part) {
-    return part < kLeastError ? "none" : formatPercent(part);
+    return part < kLeastError ? "none" : fmt::format("{:.2g} %", 100.0 * part);
 }
 
 std::string formatMilliseconds(double seconds) {
@@ -78,21 +78,23 @@ std::string formatPlot(const CompressReport& report) {
                          const std::string& label) {
         if (trial.error.seen < kLeastError) return;
         if (series.empty() || series.back().name != family) series.push_back({family, {}});
-        series.back().points.push_back({trial.bytes(), trial.error.seen,
+        series.back().points.push_back({trial.bytes(), 100.0 * trial.error.seen,
                                         fmt::format("{}: {:.3g} bytes a vertex, {}", label,
                                                     trial.bytes(), formatError(trial.error.seen))});
     };
     for (const CompressionTrial& trial : report.trials)
         add(trial.family, trial, trial.options);
     add("this asset", report.chosen, "this asset");
+    if (report.chosen.error.seen >= kLeastError) series.back().isMarked = true;
     if (series.empty()) return "<p>Every method reproduces this transfer.</p>\n";
     return drawLogPlot(series, "bytes a vertex, of attributes and of what vertices share",
-                       "error as seen, a part of the mean radiance");
+                       "error as seen, % of the mean radiance");
 }
 
 std::string formatTrialRow(const CompressionTrial& trial, const std::string& name) {
     return fmt::format(
-        "<tr><td>{}</td><td>{:.3g}</td><td>{:.2g}</td><td>{:.3g}</td><td>{}</td><td>{}</td>"
+        "<tr><td style=\"white-space:nowrap\">{}</td><td>{:.3g}</td><td>{:.2g}</td><td>{:.3g}</td>"
+        "<td>{}</td><td>{}</td>"
         "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
         name, trial.vertexBytes, trial.sharedBytes, trial.bytes(),
         formatError(trial.error.relativeRmse), formatError(trial.error.seen),

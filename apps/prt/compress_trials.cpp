@@ -25,6 +25,8 @@ double timeRelight(const CompressedTransfer& transfer, const Lighting& light) {
     return fastest;
 }
 
+constexpr std::size_t kMostBases = 4096;
+
 /// A way to store a layer, by its name and its options on the command line.
 struct Candidate {
     std::string family;
@@ -44,7 +46,9 @@ void addVectors(std::vector<Candidate>& candidates) {
 void addComponents(const std::string& family, std::size_t clusterCount, TransferEncoding encoding,
                    std::size_t dimension, std::vector<Candidate>& candidates) {
     for (const std::size_t componentCount : {3u, 7u, 11u, 15u, 23u, 31u}) {
-        if (componentCount >= dimension) break;
+        // Of many clusters with many components, the bases outweigh what vertices store.
+        const bool isHeavy = clusterCount * componentCount > kMostBases;
+        if (componentCount >= dimension || isHeavy) break;
         const std::string method = clusterCount == 1
                                        ? std::string("--method pca")
                                        : fmt::format("--method cpca --clusters {}", clusterCount);

@@ -12,8 +12,8 @@ namespace prt::cli {
 
 /// A layer stored in one of the ways there are, and what that costs.
 struct CompressionTrial {
-    std::string family;        ///< of trials that differ in size alone: "clustered PCA, 8 bits"
-    std::string options;       ///< of prt compress: "--method cpca --clusters 64 --components 7"
+    std::string family{};      ///< of trials that differ in size alone: "clustered PCA, 8 bits"
+    std::string options{};     ///< of prt compress: "--method cpca --clusters 64 --components 7"
     double vertexBytes = 0.0;  ///< of a vertex's attributes, as the file has them
     double sharedBytes = 0.0;  ///< of the bases, for each vertex
     CompressionError error{};

@@ -17,7 +17,9 @@ constexpr int kLeft = 90, kRight = 210, kTop = 20, kBottom = 60;
 
 // Okabe and Ito's colours, distinct to eyes that do not tell red from green.
 constexpr const char* kColors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                   "#e69f00", "#56b4e9", "#1c2330"};
+                                   "#e69f00", "#56b4e9", "#8c8c8c"};
+
+constexpr const char* kInk = "#1c2330";
 
 /// A logarithmic axis between two of its marks, which are 1, 2 and 5 times powers of ten.
 struct Axis {
@@ -89,8 +91,9 @@ std::string drawSeries(const PlotSeries& line, const Axis& x, const Axis& y, con
         path += fmt::format("{}{:.1f},{:.1f}", path.empty() ? "" : " ", x.place(point.x),
                             y.place(point.y));
         dots += fmt::format(
-            "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"{}\"><title>{}</title></circle>\n",
-            x.place(point.x), y.place(point.y), color, escapeHtml(point.label));
+            "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"><title>{}</title></circle>\n",
+            x.place(point.x), y.place(point.y), line.isMarked ? 9 : 5, color,
+            escapeHtml(point.label));
     }
     return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n",
                        path, color) +
@@ -110,7 +113,7 @@ std::string drawLogPlot(std::span<const PlotSeries> series, const std::string& x
         kWidth, kHeight, escapeHtml(yTitle + " against " + xTitle));
     svg += drawGrid(x, y);
     for (std::size_t i = 0; i < series.size(); ++i) {
-        const char* color = kColors[i % std::size(kColors)];
+        const char* color = series[i].isMarked ? kInk : kColors[i % std::size(kColors)];
         svg += drawSeries(series[i], x, y, color);
         const double height = kTop + 14 + 24.0 * static_cast<double>(i);
         svg += fmt::format(

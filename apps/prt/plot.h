@@ -16,6 +16,7 @@ struct PlotPoint {
 struct PlotSeries {
     std::string name;
     std::vector<PlotPoint> points;
+    bool isMarked = false;  ///< drawn to be seen before the others
 };
 
 /// A plot on logarithmic axes as SVG, for a page of formatPage. A point tells its label to the
