@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,10 +11,13 @@
 #include "apps/prt/asset_output.h"
 #include "apps/prt/commands.h"
 #include "apps/prt/compress_method.h"
+#include "apps/prt/compress_report.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/light_argument.h"
 #include "apps/prt/limits.h"
+#include "apps/prt/relit_asset.h"
 #include "apps/prt/stage_log.h"
+#include "apps/prt/staged_folder.h"
 #include "apps/prt/text.h"
 #include "prt/asset/asset.h"
 #include "prt/base/error.h"
@@ -30,7 +34,11 @@ struct CompressArguments {
     std::uint64_t seed = 1;
     int threadCount = 0;
     ReaderLimits limits;
+    CompressReportArguments report;
+    std::string command;  ///< as it was given
 };
+
+constexpr const char* kReportLight = "daylight:60,40";
 
 /// Keeps one layer only.
 void keepLayer(CompressedTransfer& transfer, Transport transport, const std::string& path) {
@@ -60,9 +68,58 @@ CompressedTransfer compressAsset(const CompressedTransfer& original,
     return compressed;
 }
 
+CompressedTransfer takeLayer(const CompressedTransfer& transfer, Transport transport) {
+    return {transfer.bandCount,
+            transfer.receiverCount,
+            transfer.receiverOfVertex,
+            {*transfer.findLayer(transport)}};
+}
+
+/// Reports on the fullest of the layers.
+void makeReport(const CompressArguments& arguments, Asset original,
+                const CompressedTransfer& compressed, const CompressOptions& options,
+                StageLog& log) {
+    const CompressReportArguments& asked = arguments.report;
+    const ImageLimits limits = arguments.limits.images();
+    const LightSource light = loadLight(asked.light, original.transfer.bandCount, {}, limits);
+    const Transport fullest = fullestTransport(compressed);
+    original.transfer = takeLayer(original.transfer, fullest);
+    decodeTextures(original.scene, limits);
+    CompressReport report = examineCompression(original, takeLayer(compressed, fullest), options,
+                                               light.lighting, asked.view, log);
+    report.asset = arguments.output;
+    report.source = arguments.asset;
+    report.command = arguments.command;
+    report.lightName = asked.light;
+
+    const DeferInterrupts whileWriting;
+    StagedFolder folder(asked.folder);
+    writeCompressReport(folder.path(), report);
+    stopIfInterrupted();
+    folder.commit();
+    log.tell("report: " + (std::filesystem::path(asked.folder) / "index.html").string());
+}
+
+void checkOutputs(const CompressArguments& arguments) {
+    checkAssetOutput(arguments.output, arguments.asset, "the asset it is made from");
+    if (arguments.report.folder.empty()) return;
+    const DeferInterrupts whileProbing;
+    StagedFolder::check(arguments.report.folder);
+}
+
+void writeCompressed(const CompressArguments& arguments, const Asset& asset,
+                     const CompressedTransfer& compressed, StageLog& log) {
+    const Stopwatch write;
+    const DeferInterrupts whileWriting;
+    writeAsset(arguments.output, asset.scene, compressed, asset.provenance);
+    log.finishStage("write", write.seconds(),
+                    fmt::format("{}, {}", arguments.output,
+                                formatBytes(std::filesystem::file_size(arguments.output))));
+}
+
 void runCompress(const CompressArguments& arguments) {
     CompressOptions options = makeCompressOptions(arguments.method, arguments.seed);
-    checkAssetOutput(arguments.output, arguments.asset, "the asset it is made from");
+    checkOutputs(arguments);
     stopIfInterrupted();
     StageLog log;
     const Stopwatch load;
@@ -83,17 +140,15 @@ void runCompress(const CompressArguments& arguments) {
     asset.provenance.command += "; compress " + describeMethod(arguments.method);
     if (options.clusters) asset.provenance.command += fmt::format(" --seed {}", arguments.seed);
 
-    const Stopwatch write;
-    const DeferInterrupts whileWriting;
-    writeAsset(arguments.output, asset.scene, compressed, asset.provenance);
-    log.finishStage("write", write.seconds(),
-                    fmt::format("{}, {}", arguments.output,
-                                formatBytes(std::filesystem::file_size(arguments.output))));
+    writeCompressed(arguments, asset, compressed, log);
+    if (!arguments.report.folder.empty())
+        makeReport(arguments, std::move(asset), compressed, options, log);
 }
 
 constexpr const char* kFooter =
     R"(Examples: prt compress statue.prt.glb -o small.prt.glb --method cpca --weigh-by museum.exr
           prt compress statue.prt.glb -o small.prt.glb --bytes-per-vertex 16 --transport interreflected
+          prt compress statue.prt.glb -o small.prt.glb --method cpca --report report --light museum.exr
 
 )";
 
@@ -123,7 +178,27 @@ void addCompressCommand(CLI::App& app) {
         ->default_str("1");
     addIntegerOption(*command, "--threads", arguments->threadCount, 0, 4096, "0 for one a core");
     addPixelLimit(*command, arguments->limits);
-    command->callback([arguments] { runCompress(*arguments); });
+    CLI::Option* report =
+        command
+            ->add_option(
+                "--report", arguments->report.folder,
+                "also make a folder with a page: every method, what it costs, where it errs")
+            ->type_name("REPORT_DIR");
+    command
+        ->add_option(
+            "--light", arguments->report.light,
+            "the light of the report [that of --weigh-by, or " + std::string(kReportLight) + "]")
+        ->type_name("LIGHT")
+        ->needs(report);
+    addViewOptions(*command, arguments->report.view);
+    command->callback([arguments, command] {
+        if (arguments->report.light.empty())
+            arguments->report.light =
+                arguments->method.light.empty() ? kReportLight : arguments->method.light;
+        arguments->command =
+            describeCommand("prt compress " + arguments->asset, *command, "output");
+        runCompress(*arguments);
+    });
 }
 
 }  // namespace prt::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -168,7 +169,8 @@ std::string describeMethod(const MethodArguments& arguments) {
     if (arguments.bytesPerVertex)
         text += fmt::format(" --bytes-per-vertex {}", *arguments.bytesPerVertex);
     if (arguments.maxError) text += fmt::format(" --max-error {}", *arguments.maxError);
-    if (!arguments.light.empty()) text += fmt::format(" --weigh-by {}", arguments.light);
+    if (!arguments.light.empty())
+        text += " --weigh-by " + std::filesystem::path(arguments.light).filename().string();
     return text;
 }
 

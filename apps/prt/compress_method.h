@@ -45,7 +45,7 @@ std::vector<Vec3d> loadErrorLight(const MethodArguments& arguments, int bandCoun
 /// The method that is meant.
 std::string methodName(const MethodArguments& arguments);
 
-/// A command's options that make the same again: "--method cpca --clusters 64 …".
+/// A command's options that make the same again, without paths: "--method cpca --clusters 64 …".
 std::string describeMethod(const MethodArguments& arguments);
 
 /// What a vertex of a layer will take at least, with its share of what is stored for all.

@@ -145,7 +145,7 @@ Json describe(const CompressionError& error) {
 Json describe(const CompressionTrial& trial) {
     return {{"family", trial.family},
             {"options", trial.options},
-            {"bytes_per_vertex", trial.vertexBytes},
+            {"bytes_per_vertex", trial.bytes},
             {"shared_bytes_per_vertex", trial.sharedBytes},
             {"error", describe(trial.error)},
             {"compress_seconds", trial.compressSeconds},
@@ -158,6 +158,7 @@ Json finiteOrNull(double number) {
 
 std::string formatNumbers(const CompressReport& report) {
     Json json = {{"asset", report.asset},
+                 {"source", report.source},
                  {"light", report.lightName},
                  {"transport", transportName(report.transport)},
                  {"bands", report.bandCount},

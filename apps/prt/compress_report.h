@@ -15,6 +15,7 @@ namespace prt::cli {
 /// What a report on compression is asked for.
 struct CompressReportArguments {
     std::string folder{};  ///< empty: no report
+    std::string light{};   ///< LIGHT
     ViewArguments view{.size = {640, 360}};
 };
 
@@ -36,7 +37,8 @@ struct WorstVertex {
 
 /// All about one compressed layer.
 struct CompressReport {
-    std::string asset{};
+    std::string asset{};    ///< that was written
+    std::string source{};   ///< that it was made from
     std::string command{};  ///< that makes the report again
     std::string lightName{};
     Transport transport = Transport::interreflected;

@@ -33,10 +33,11 @@ std::string formatCards(const CompressReport& report) {
     const double floatBytes = static_cast<double>(report.dimension * sizeof(float));
     const CompressionTrial& chosen = report.chosen;
     return "<div class=\"cards\">\n" +
-           formatCard(fmt::format("{:.3g} bytes", chosen.bytes()), "a vertex",
-                      fmt::format("Instead of {:g} as floats: {:.3g} in attributes, and {:.2g} for "
-                                  "what all vertices share.",
-                                  floatBytes, chosen.vertexBytes, chosen.sharedBytes)) +
+           formatCard(
+               fmt::format("{:.3g} bytes", chosen.bytes), "a vertex",
+               fmt::format("Instead of {:g} as floats: {:.3g} in attributes, and {:.2g} for "
+                           "what all vertices share.",
+                           floatBytes, chosen.bytes - chosen.sharedBytes, chosen.sharedBytes)) +
            formatCard(formatError(report.relitRmse), "error of the relit vertices",
                       "Root mean square of the radiance's error under this light, over the mean "
                       "radiance.") +
@@ -78,9 +79,9 @@ std::string formatPlot(const CompressReport& report) {
                          const std::string& label) {
         if (trial.error.seen < kLeastError) return;
         if (series.empty() || series.back().name != family) series.push_back({family, {}});
-        series.back().points.push_back({trial.bytes(), 100.0 * trial.error.seen,
+        series.back().points.push_back({trial.bytes, 100.0 * trial.error.seen,
                                         fmt::format("{}: {:.3g} bytes a vertex, {}", label,
-                                                    trial.bytes(), formatError(trial.error.seen))});
+                                                    trial.bytes, formatError(trial.error.seen))});
     };
     for (const CompressionTrial& trial : report.trials)
         add(trial.family, trial, trial.options);
@@ -96,7 +97,7 @@ std::string formatTrialRow(const CompressionTrial& trial, const std::string& nam
         "<tr><td style=\"white-space:nowrap\">{}</td><td>{:.3g}</td><td>{:.2g}</td><td>{:.3g}</td>"
         "<td>{}</td><td>{}</td>"
         "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
-        name, trial.vertexBytes, trial.sharedBytes, trial.bytes(),
+        name, trial.bytes - trial.sharedBytes, trial.sharedBytes, trial.bytes,
         formatError(trial.error.relativeRmse), formatError(trial.error.seen),
         trial.compressSeconds > 0.0 ? fmt::format("{:.2f} s", trial.compressSeconds) : "",
         formatMilliseconds(trial.relightSeconds),
@@ -150,12 +151,14 @@ std::string formatFewVectors(const CompressReport& report) {
 
 std::string formatFacts(const CompressReport& report) {
     return fmt::format(
-        "<h2>How it was made</h2>\n<dl>\n<dt>asset</dt><dd><code>{}</code>: {}, {} transport, {} "
-        "bands, {} numbers a vertex</dd>\n<dt>this page</dt><dd><code>{}</code>; numbers in <a "
+        "<h2>How it was made</h2>\n<dl>\n<dt>asset</dt><dd><code>{}</code>, of <code>{}</code>: "
+        "{}, "
+        "{} transport, {} bands, {} numbers a vertex</dd>\n<dt>this page</dt><dd><code>{}</code>; "
+        "numbers in <a "
         "href=\"compression.json\">compression.json</a></dd>\n</dl>\n",
-        escapeHtml(report.asset), formatCount(report.vertexCount, "vertex"),
-        transportName(report.transport), report.bandCount, report.dimension,
-        escapeHtml(report.command));
+        escapeHtml(report.asset), escapeHtml(report.source),
+        formatCount(report.vertexCount, "vertex"), transportName(report.transport),
+        report.bandCount, report.dimension, escapeHtml(report.command));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "prt/compress/choose_clusters.h"
 #include "prt/relight/relighter.h"
 
 namespace prt::cli {
@@ -90,9 +91,7 @@ std::vector<Candidate> listCandidates(std::size_t dimension) {
 CompressionTrial judgeCompression(const CompressedTransfer& original,
                                   const CompressedTransfer& compressed, const Lighting& light) {
     const CompressedLayer& layer = compressed.layers.front();
-    const CoefficientTable& numbers = layer.table.numbers;
-    return {.vertexBytes = static_cast<double>(
-                numbers.panelCount() * CoefficientTable::kPanelWidth * numbers.elementBytes()),
+    return {.bytes = countBytesPerReceiver(layer),
             .sharedBytes = static_cast<double>(countSharedBytes(layer)) /
                            static_cast<double>(compressed.receiverCount),
             .error = measureCompressionError(layer, original.layers.front(), light.coefficients),

@@ -14,13 +14,11 @@ namespace prt::cli {
 struct CompressionTrial {
     std::string family{};      ///< of trials that differ in size alone: "clustered PCA, 8 bits"
     std::string options{};     ///< of prt compress: "--method cpca --clusters 64 --components 7"
-    double vertexBytes = 0.0;  ///< of a vertex's attributes, as the file has them
-    double sharedBytes = 0.0;  ///< of the bases, for each vertex
+    double bytes = 0.0;        ///< a vertex, as countBytesPerReceiver has them
+    double sharedBytes = 0.0;  ///< of these, the share of the bases
     CompressionError error{};
     double compressSeconds = 0.0;
     double relightSeconds = 0.0;  ///< of all vertices, on one core
-
-    double bytes() const { return vertexBytes + sharedBytes; }
 };
 
 /// Looks what a layer costs as it is stored; the time of storing it stays open.
