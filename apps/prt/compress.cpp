@@ -22,6 +22,7 @@
 #include "prt/asset/asset.h"
 #include "prt/base/error.h"
 #include "prt/compress/compress_transfer.h"
+#include "prt/gltf/vertex_order.h"
 
 namespace prt::cli {
 namespace {
@@ -31,6 +32,7 @@ struct CompressArguments {
     std::string output;
     MethodArguments method{.byDefault = "u16"};
     std::optional<Transport> transport;
+    bool meshopt = false;
     std::uint64_t seed = 1;
     int threadCount = 0;
     ReaderLimits limits;
@@ -111,7 +113,14 @@ void writeCompressed(const CompressArguments& arguments, const Asset& asset,
                      const CompressedTransfer& compressed, StageLog& log) {
     const Stopwatch write;
     const DeferInterrupts whileWriting;
-    writeAsset(arguments.output, asset.scene, compressed, asset.provenance);
+    if (arguments.meshopt) {
+        Scene scene = asset.scene;
+        CompressedTransfer ordered = compressed;
+        orderForEncoding(scene, ordered.receiverOfVertex);
+        writeAsset(arguments.output, scene, ordered, asset.provenance, {.meshopt = true});
+    } else {
+        writeAsset(arguments.output, asset.scene, compressed, asset.provenance);
+    }
     log.finishStage("write", write.seconds(),
                     fmt::format("{}, {}", arguments.output,
                                 formatBytes(std::filesystem::file_size(arguments.output))));
@@ -132,8 +141,7 @@ void runCompress(const CompressArguments& arguments) {
     const Stopwatch compress;
     options.threadCount = arguments.threadCount;
     options.progress = log.callback();
-    const CompressedTransfer compressed =
-        compressAsset(asset.transfer, arguments, options, light, log);
+    CompressedTransfer compressed = compressAsset(asset.transfer, arguments, options, light, log);
     log.finishStage("compress", compress.seconds(),
                     fmt::format("{}, {}", methodName(arguments.method),
                                 formatCount(asset.scene.vertexCount(), "vertex")));
@@ -174,6 +182,9 @@ void addCompressCommand(CLI::App& app) {
     addMethodOptions(*command, arguments->method);
     addParsedOption(*command, "--transport", arguments->transport, parseTransport,
                     "unshadowed|shadowed|interreflected", "keep this kind alone [all there are]");
+    command->add_flag("--meshopt", arguments->meshopt,
+                      "encode vertices and triangles too, without loss, and order them for\n"
+                      "that: for readers that know EXT_meshopt_compression");
     addParsedOption(*command, "--seed", arguments->seed, parseWholeNumber, "N", "of the clusters")
         ->default_str("1");
     addIntegerOption(*command, "--threads", arguments->threadCount, 0, 4096, "0 for one a core");

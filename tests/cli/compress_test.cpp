@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "prt/io/image_io.h"
 #include "tests/cli/run_prt.h"
 
 namespace prt::test {
@@ -50,6 +51,26 @@ TEST_F(CliCompress, ACompressedAssetIsTheOneThatABakeOfThisMethodWrites) {
               std::string::npos);
     EXPECT_LT(std::filesystem::file_size(folder.path() / "small.prt.glb"),
               std::filesystem::file_size(folder.path() / "float.prt.glb"));
+}
+
+TEST_F(CliCompress, MeshoptTakesFewerBytesAndLooksTheSame) {
+    run({"compress", "float.prt.glb", "-o", "plain.prt.glb", "--method", "u8"});
+    run({"compress", "float.prt.glb", "-o", "encoded.prt.glb", "--method", "u8", "--meshopt"});
+    EXPECT_EQ(run({"check", "encoded.prt.glb"}).output, "ok\n");
+    EXPECT_LT(3 * std::filesystem::file_size(folder.path() / "encoded.prt.glb"),
+              2 * std::filesystem::file_size(folder.path() / "plain.prt.glb"));
+    EXPECT_EQ(info("encoded.prt.glb").at("vertices"), info("plain.prt.glb").at("vertices"));
+    for (const std::string name : {"plain", "encoded"})
+        run({"render", name + ".prt.glb", "--light", "sun:40,50,20", "-o", name + ".exr", "--size",
+             "64x36"});
+    const Image plain = readImage(folder.path() / "plain.exr");
+    const Image encoded = readImage(folder.path() / "encoded.exr");
+    ASSERT_EQ(encoded.pixels.size(), plain.pixels.size());
+    // A hit is found on another triangle first, or from another of its corners on: roundings.
+    constexpr float kTolerance = 1e-5f;
+    for (std::size_t i = 0; i < plain.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(encoded.pixels[i][c], plain.pixels[i][c], kTolerance) << "pixel " << i;
 }
 
 TEST_F(CliCompress, OneKindOfTransportCanBeKeptAlone) {
