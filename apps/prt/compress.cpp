@@ -64,6 +64,7 @@ CompressedTransfer compressAsset(const CompressedTransfer& original,
             makeTable(coefficientsPerReceiver(original.bandCount, before.channelCount),
                       expandLayer(before))};
         compressed.layers.push_back(compressLayer(layer, original.bandCount, options));
+        compressed.layers.back().largestError += before.largestError;
         tellCompression(compressed.layers.back(), layer, bytesPerReceiver(before), arguments.method,
                         light, log);
     }

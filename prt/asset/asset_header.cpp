@@ -50,6 +50,8 @@ std::string computeLayerChecksum(const LayerDescription& description) {
         bytes += " " + std::to_string(number);
     if (layer.bases) bytes += " " + clusterChecksumText(layer, description.vectors);
     bytes += rangeBytes(layer.bases ? layer.bases->vectors : layer.table);
+    if (layer.largestError > 0.0f)
+        bytes.append(reinterpret_cast<const char*>(&layer.largestError), sizeof(float));
     return formatChecksum(computeCrc32(std::as_bytes(std::span(bytes))));
 }
 
@@ -64,6 +66,7 @@ nlohmann::ordered_json describeLayer(const LayerDescription& description) {
         object["clusters"] = describeClusters(layer, description.vectors);
     else
         describeRanges(layer.table, object);
+    if (layer.largestError > 0.0f) object["largestError"] = layer.largestError;
     object["checksum"] = computeLayerChecksum(description);
     return object;
 }
@@ -121,6 +124,14 @@ std::optional<CompressedLayer> parseKind(const JsonCursor& object, int minorVers
     return layer;
 }
 
+float parseLargestError(const JsonCursor& layer) {
+    const std::optional<JsonCursor> member = layer.find("largestError");
+    if (!member) return 0.0f;
+    const double error = member->toNumber();
+    if (!(error > 0.0 && error <= kMaxCoefficient)) member->reject("must be above 0, at most 100");
+    return static_cast<float>(error);
+}
+
 /// One member of the header's list of layers.
 void parseLayer(const JsonCursor& object, int minorVersion, AssetHeader& header) {
     std::optional<CompressedLayer> known = parseKind(object, minorVersion);
@@ -135,6 +146,8 @@ void parseLayer(const JsonCursor& object, int minorVersion, AssetHeader& header)
         vectors = parseClusters(object.at("clusters"), dimension, layer);
     else
         parseRanges(object, dimension, layer.table);
+
+    layer.largestError = parseLargestError(object);
 
     const JsonCursor attributes = object.at("attributes");
     const AttributeRange range{attributes.at("first").toCount(), attributes.at("count").toCount()};

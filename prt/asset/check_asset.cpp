@@ -12,8 +12,9 @@ namespace {
 
 // What rounding in the bake and in expansion may add, relative to the bound.
 constexpr double kTolerance = 1e-3;
-// What clusters may add, whose sums of few vectors can be off by a large part of a coefficient.
-constexpr double kToleranceOfClusters = 0.5;
+// So many receivers are expanded at a time: clusters are small in the file, and large when
+// expanded.
+constexpr std::size_t kReceiversAtOnce = 65536;
 // More unlit vertices than closed solids standing in each other usually have.
 constexpr double kSuspiciousDarkShare = 0.25;
 
@@ -32,10 +33,12 @@ std::vector<double> coefficientBounds(int bandCount) {
     return bounds;
 }
 
-LayerCounts countDoubts(std::span<const float> values, int channelCount,
-                        const std::vector<double>& bounds, double tolerance) {
-    LayerCounts counts;
-    const std::size_t rowLength = bounds.size() * static_cast<std::size_t>(channelCount);
+/// @param values        of some receivers
+/// @param largestError  of each of them
+/// @param counts        added to
+void countDoubts(std::span<const float> values, const std::vector<double>& bounds,
+                 std::size_t rowLength, double largestError, LayerCounts& counts) {
+    const auto tolerance = [&](std::size_t i) { return bounds[i] * kTolerance + largestError; };
     for (std::size_t row = 0; row < values.size(); row += rowLength) {
         bool isTooLarge = false;
         bool isNegative = false;
@@ -43,24 +46,31 @@ LayerCounts countDoubts(std::span<const float> values, int channelCount,
         for (std::size_t column = 0; column < rowLength; ++column) {
             const std::size_t i = column % bounds.size();
             const double value = values[row + column];
-            isTooLarge |= std::abs(value) > bounds[i] * (1.0 + tolerance);
+            isTooLarge |= std::abs(value) > bounds[i] + tolerance(i);
             if (i > 0) continue;
-            isNegative |= value < -bounds[0] * tolerance;
+            isNegative |= value < -tolerance(0);
             isDark &= value <= bounds[0] * kTolerance;
         }
         counts.tooLarge += isTooLarge;
         counts.negativeMean += isNegative;
         counts.dark += isDark;
     }
+}
+
+LayerCounts countDoubts(const CompressedTransfer& transfer, const CompressedLayer& layer) {
+    LayerCounts counts;
+    for (std::size_t begin = 0; begin < transfer.receiverCount; begin += kReceiversAtOnce)
+        countDoubts(expandReceivers(layer, begin,
+                                    std::min(kReceiversAtOnce, transfer.receiverCount - begin)),
+                    coefficientBounds(transfer.bandCount),
+                    coefficientsPerReceiver(transfer.bandCount, layer.channelCount),
+                    layer.largestError, counts);
     return counts;
 }
 
 void reportLayer(const Asset& asset, const CompressedLayer& layer,
                  std::vector<std::string>& problems) {
-    const std::vector<float> values = expandLayer(layer);
-    const LayerCounts counts =
-        countDoubts(values, layer.channelCount, coefficientBounds(asset.transfer.bandCount),
-                    layer.bases ? kToleranceOfClusters : kTolerance);
+    const LayerCounts counts = countDoubts(asset.transfer, layer);
     const std::string ofVertices =
         " of " + std::to_string(asset.transfer.receiverCount) + " vertices ";
     const std::string where = "layer " + std::string(transportName(layer.transport)) + ": ";

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "prt/base/assert.h"
 #include "prt/compress/light_error_weights.h"
@@ -41,12 +42,26 @@ void checkLayer(const TransferLayer& layer, int bandCount) {
     PRT_ASSERT(isFinite(layer.coefficients), "every coefficient is finite");
 }
 
-}  // namespace
+/// The largest difference of a coefficient from what is stored.
+double measureLargestError(const CompressedLayer& compressed, const CoefficientTable& truth) {
+    constexpr std::size_t kRowsAtOnce = 4096;
+    double largest = 0.0;
+    std::vector<float> row(truth.columnCount());
+    for (std::size_t begin = 0; begin < truth.rowCount(); begin += kRowsAtOnce) {
+        const std::size_t count = std::min(kRowsAtOnce, truth.rowCount() - begin);
+        const std::vector<float> stored = expandReceivers(compressed, begin, count);
+        for (std::size_t i = 0; i < count; ++i) {
+            truth.readRow(begin + i, std::span(row));
+            for (std::size_t j = 0; j < row.size(); ++j)
+                largest = std::max(largest,
+                                   std::abs(double{stored[i * row.size() + j]} - double{row[j]}));
+        }
+    }
+    return largest;
+}
 
-CompressedLayer compressLayer(const TransferLayer& layer, int bandCount,
-                              const CompressOptions& options) {
-    checkLayer(layer, bandCount);
-    if (isByColumns(layer, options)) return compressColumns(layer, options);
+CompressedLayer compressByClusters(const TransferLayer& layer, int bandCount,
+                                   const CompressOptions& options) {
     const ClusterOptions clusters = options.clusters.value_or(ClusterOptions{});
     if (options.budget)
         return compressToBudget(layer, clusters, *options.budget, options.threadCount,
@@ -61,6 +76,19 @@ CompressedLayer compressLayer(const TransferLayer& layer, int bandCount,
             .channelCount = layer.channelCount,
             .table = std::move(clustered.table),
             .bases = std::move(clustered.bases)};
+}
+
+}  // namespace
+
+CompressedLayer compressLayer(const TransferLayer& layer, int bandCount,
+                              const CompressOptions& options) {
+    checkLayer(layer, bandCount);
+    if (isByColumns(layer, options)) return compressColumns(layer, options);
+    CompressedLayer compressed = compressByClusters(layer, bandCount, options);
+    if (compressed.bases)
+        compressed.largestError =
+            static_cast<float>(measureLargestError(compressed, layer.coefficients));
+    return compressed;
 }
 
 CompressedTransfer compressTransfer(TransferField field, const CompressOptions& options) {

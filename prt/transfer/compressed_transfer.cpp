@@ -9,8 +9,6 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kRowsAtOnce = 4096;
-
 /// The first column of rows is the cluster, as it is: the integers, or a float that is one.
 template <class Stored>
 void readFirstColumn(const CoefficientTable& numbers, std::size_t firstRow,
@@ -37,33 +35,31 @@ bool isComplete(const ClusterBases& bases, std::size_t dimension) {
 }
 
 /// b_k0 + Σ_p w_p b_kp for each receiver, summed in double.
-std::vector<float> expandClusters(const CompressedLayer& layer) {
-    const std::vector<float> vectors = expandTable(layer.bases->vectors);
-    const std::vector<std::size_t> firstVectors = layer.bases->firstVectors();
-    const std::size_t dimension = layer.bases->vectors.numbers.columnCount();
+std::vector<float> expandClusters(const CompressedLayer& layer, std::size_t firstReceiver,
+                                  std::size_t receiverCount) {
+    const ClusterBases& bases = *layer.bases;
+    const std::vector<std::size_t> firstVectors = bases.firstVectors();
+    const std::size_t dimension = bases.vectors.numbers.columnCount();
     const std::size_t rowLength = layer.table.numbers.columnCount();
-    const std::size_t receiverCount = layer.table.numbers.rowCount();
+    std::vector<std::uint32_t> clusters(receiverCount);
+    readClusters(layer, firstReceiver, clusters);
+    const std::vector<float> rows = expandRows(layer.table, firstReceiver, receiverCount);
+    const std::vector<float> vectors = expandTable(bases.vectors);
     std::vector<float> values;
     values.reserve(receiverCount * dimension);
-    std::vector<std::uint32_t> clusters(receiverCount);
-    readClusters(layer, 0, clusters);
     std::vector<double> sum(dimension);
-    for (std::size_t begin = 0; begin < receiverCount; begin += kRowsAtOnce) {
-        const std::size_t count = std::min(kRowsAtOnce, receiverCount - begin);
-        const std::vector<float> rows = expandRows(layer.table, begin, count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t k = clusters[begin + i];
-            const float* vector = &vectors[firstVectors[k] * dimension];
-            std::copy_n(vector, dimension, sum.begin());
-            for (std::uint32_t p = 1; p <= layer.bases->componentCounts[k]; ++p) {
-                vector += dimension;
-                const double weight = rows[i * rowLength + p];
-                for (std::size_t j = 0; j < dimension; ++j)
-                    sum[j] += weight * vector[j];
-            }
-            for (const double value : sum)
-                values.push_back(static_cast<float>(value));
+    for (std::size_t i = 0; i < receiverCount; ++i) {
+        const std::uint32_t k = clusters[i];
+        const float* vector = &vectors[firstVectors[k] * dimension];
+        std::copy_n(vector, dimension, sum.begin());
+        for (std::uint32_t p = 1; p <= bases.componentCounts[k]; ++p) {
+            vector += dimension;
+            const double weight = rows[i * rowLength + p];
+            for (std::size_t j = 0; j < dimension; ++j)
+                sum[j] += weight * vector[j];
         }
+        for (const double value : sum)
+            values.push_back(static_cast<float>(value));
     }
     return values;
 }
@@ -122,8 +118,14 @@ void readClusters(const CompressedLayer& layer, std::size_t firstReceiver,
     }
 }
 
+std::vector<float> expandReceivers(const CompressedLayer& layer, std::size_t firstReceiver,
+                                   std::size_t receiverCount) {
+    return layer.bases ? expandClusters(layer, firstReceiver, receiverCount)
+                       : expandRows(layer.table, firstReceiver, receiverCount);
+}
+
 std::vector<float> expandLayer(const CompressedLayer& layer) {
-    return layer.bases ? expandClusters(layer) : expandTable(layer.table);
+    return expandReceivers(layer, 0, layer.table.numbers.rowCount());
 }
 
 TransferField expandTransfer(const CompressedTransfer& transfer) {

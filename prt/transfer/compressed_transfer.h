@@ -40,6 +40,8 @@ struct CompressedLayer {
     /// beyond those of k.
     StoredTable table{};
     std::optional<ClusterBases> bases{};  ///< of a layer with clusters
+    float largestError = 0.0f;  ///< how far a coefficient may be from what was baked, where that is
+                                ///< more than the rounding of `table`
 };
 
 /// A TransferField as it is stored.
@@ -66,7 +68,11 @@ bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer
 void readClusters(const CompressedLayer& layer, std::size_t firstReceiver,
                   std::span<std::uint32_t> clusters);
 
-/// Decodes a layer to floats, [receiver][channel][coefficient].
+/// Decodes some receivers of a layer to floats, [receiver][channel][coefficient].
+std::vector<float> expandReceivers(const CompressedLayer& layer, std::size_t firstReceiver,
+                                   std::size_t receiverCount);
+
+/// Decodes all of them.
 std::vector<float> expandLayer(const CompressedLayer& layer);
 
 /// Decodes all layers.

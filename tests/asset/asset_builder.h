@@ -161,6 +161,10 @@ inline void repairLayer(GlbFile& file, nlohmann::json& layer) {
             bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
         }
     }
+    if (layer.contains("largestError") && layer["largestError"].is_number()) {
+        const auto error = layer["largestError"].get<float>();
+        bytes.append(reinterpret_cast<const char*>(&error), sizeof(error));
+    }
     layer["checksum"] = checksumOf(std::as_bytes(std::span(bytes)));
 }
 

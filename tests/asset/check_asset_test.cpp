@@ -56,15 +56,20 @@ TEST(CheckAsset, ManyUnlitVerticesAreDoubtedAndFewAreNot) {
     EXPECT_TRUE(findAssetProblems(asset).empty());
 }
 
-TEST(CheckAsset, ClustersMayBeOffByAPartOfACoefficientAndNoMore) {
-    for (const float excess : {1.2f, 2.0f}) {
-        Asset asset = assetWith({0.0f});  // four vertices of cluster 0
-        CompressedLayer& layer = asset.transfer.layers[0];
-        layer.bases.emplace().componentCounts = {0};
-        layer.bases->vectors.numbers =
-            makeTable(4, std::vector<float>{excess * kWhiteMean, 0.0f, 0.0f, 0.0f});
-        EXPECT_EQ(findAssetProblems(asset).size(), excess < 1.5f ? 0u : 1u);
-    }
+TEST(CheckAsset, CoefficientsMayBeOffByTheErrorThatTheLayerNames) {
+    for (const float excess : {0.009f, 0.011f})
+        for (const std::vector<float>& vector :
+             {std::vector<float>{kWhiteMean + excess, 0.0f, 0.0f, 0.0f},
+              std::vector<float>{0.2f, 0.0f, 0.4886f + excess, 0.0f},
+              std::vector<float>{-excess, 0.0f, 0.0f, 0.0f}}) {
+            Asset asset = assetWith(vector);
+            const std::vector<std::string> before = findAssetProblems(asset);
+            EXPECT_FALSE(before.empty());
+            asset.transfer.layers[0].largestError = 0.01f;
+            // A vertex without light is dark, whatever the error.
+            const std::size_t always = vector[0] < 0.0f ? 1 : 0;
+            EXPECT_EQ(findAssetProblems(asset).size(), always + (excess > 0.01f ? 1 : 0));
+        }
 }
 
 }  // namespace

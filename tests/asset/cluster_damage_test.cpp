@@ -73,6 +73,15 @@ TEST(ClusterDamage, HeadersThatMakeNoSenseAreRefusedEvenWithFittingChecksums) {
         makeAssetBytes());
 }
 
+TEST(ClusterDamage, ErrorsThatMakeNoSenseAreRefusedEvenWithFittingChecksums) {
+    std::vector<Mutant> mutants;
+    for (const Json& error : {Json(0), Json(-0.01), Json(101), Json("0.01"), Json()})
+        mutants.push_back({"largestError",
+                           [error](GlbFile& file) { layerOf(file, 0)["largestError"] = error; },
+                           "largestError"});
+    expectEachIsRefused(mutants, makeAssetBytes());
+}
+
 TEST(ClusterDamage, EachMemberIsNeeded) {
     std::vector<Mutant> mutants = {
         {"clusters", [](GlbFile& file) { layerOf(file, 0).erase("clusters"); }, "clusters"}};

@@ -125,7 +125,7 @@ double coefficientOfClusters(TransferEncoding encoding, std::size_t vertex, std:
 }
 
 fs::path goldenPath(const std::string& version, TransferEncoding encoding) {
-    return fs::path(__FILE__).parent_path() / "golden" /
+    return fs::path(PRT_GOLDEN_FOLDER) /
            (version + "-" + std::string(encodingName(encoding)) + ".prt.glb");
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -190,6 +191,54 @@ TEST_F(CliCompress, OptionsThatContradictEachOtherAreWrongUsage) {
             EXPECT_NE(result.errors.find("prt: error: "), std::string::npos) << result.errors;
             EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.prt.glb"));
         }
+}
+
+TEST_F(CliCompress, WhatIsCompressedTwiceIsStillSound) {
+    run({"compress", "float.prt.glb", "-o", "once.prt.glb", "--components", "2", "--clusters",
+         "3"});
+    for (const std::string method : {"cpca", "pca", "u8", "float"}) {
+        run({"compress", "once.prt.glb", "-o", method + ".prt.glb", "--method", method});
+        EXPECT_EQ(run({"check", method + ".prt.glb"}).output, "ok\n") << method;
+    }
+}
+
+TEST_F(CliCompress, AReportHoldsEveryMethodAgainstTheOriginal) {
+    run({"compress", "float.prt.glb", "-o", "small.prt.glb", "--clusters", "8", "--components", "3",
+         "--report", "report", "--light", "sun:40,50,20", "--size", "64x36"});
+    const auto folderOfReport = folder.path() / "report";
+    for (const std::string picture :
+         {"original", "compressed", "vertex-errors", "vectors-2", "vectors-3", "vectors-4"}) {
+        EXPECT_TRUE(std::filesystem::exists(folderOfReport / (picture + ".png"))) << picture;
+        EXPECT_NE(readText(folderOfReport / "index.html").find(picture + ".png"),
+                  std::string::npos);
+    }
+    const Json report = Json::parse(readText(folderOfReport / "compression.json"));
+    EXPECT_GT(report.at("chosen").at("error").at("seen"), 0.0);
+    EXPECT_GT(report.at("relit_rmse"), 0.0);
+    double floats = 1.0, worst = 0.0;
+    for (const Json& trial : report.at("trials")) {
+        if (trial.at("options") == "--method float") floats = trial.at("error").at("seen");
+        worst = std::max<double>(worst, trial.at("error").at("seen"));
+    }
+    EXPECT_EQ(floats, 0.0);
+    EXPECT_GT(worst, report.at("chosen").at("error").at("seen"));
+    // 64 clusters of floats for mean and components, floats for weights and a byte a vertex.
+    const std::size_t vertexCount = report.at("vertices");
+    for (const Json& few : report.at("few_vectors")) {
+        const std::size_t vectorCount = few.at("vectors");
+        EXPECT_EQ(few.at("bytes"),
+                  vertexCount * (4 * (vectorCount - 1) + 1) + 64 * vectorCount * 27 * 4);
+    }
+    EXPECT_EQ(runPrt(folder, {"compress", "float.prt.glb", "-o", "x.prt.glb", "--report", "report"})
+                  .exitCode,
+              2)
+        << "the folder is there";
+    EXPECT_EQ(
+        runPrt(folder, {"compress", "float.prt.glb", "-o", "x.prt.glb", "--light", "sun:40,50,20"})
+            .exitCode,
+        2)
+        << "a light without a report";
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.prt.glb"));
 }
 
 TEST_F(CliCompress, AnInterruptLeavesNothing) {

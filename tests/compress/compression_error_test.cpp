@@ -152,5 +152,14 @@ TEST(CompressionError, WeighingByALightLowersWhatIsSeenAndRaisesTheRest) {
     }
 }
 
+TEST(CompressionError, ALayerNamesTheLargestThatReadingBackGives) {
+    const TransferField field = makeField(3, 5000);
+    const CompressedTransfer compressed = compressTo(field, 2);
+    const CompressionError error = measureCompressionError(compressed.layers[0], field.layers[0]);
+    EXPECT_GT(error.largest, 0.0);
+    EXPECT_EQ(compressed.layers[0].largestError, static_cast<float>(error.largest));
+    EXPECT_EQ(compressTransfer(field).layers[0].largestError, 0.0f) << "rounding is not named";
+}
+
 }  // namespace
 }  // namespace prt

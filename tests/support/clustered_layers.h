@@ -55,6 +55,7 @@ inline CompressedLayer makeClusteredLayer(Transport transport, int bandCount,
     CompressedLayer layer;
     layer.transport = transport;
     layer.channelCount = transport == Transport::interreflected ? 3 : 1;
+    layer.largestError = 0.0123f;
     RandomStream random(seed, 41);
     ClusterBases& bases = layer.bases.emplace();
     bases.componentCounts = form.componentCounts;
