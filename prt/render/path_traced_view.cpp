@@ -12,21 +12,32 @@ namespace {
 /// Pixels whose paths are held in memory at once.
 constexpr std::size_t kBlockPixels = 1024;
 
-/// Adds up the pixels of one block of a view.
+/// Traces and adds up the pixels of one block of a view.
 class BlockTracer {
   public:
-    BlockTracer(const Scene& scene, const RenderOptions& view, std::vector<SeenPoint> seen)
-        : scene_(scene), view_(view), seen_(std::move(seen)) {}
+    BlockTracer(const Scene& scene, const RayScene& rays, const RenderOptions& view,
+                std::vector<SeenPoint> seen)
+        : scene_(scene), rays_(rays), view_(view), seen_(std::move(seen)) {}
 
-    /// Where paths leave the surfaces seen, in the order of the rays that see one.
-    std::vector<PathOrigin> placeOrigins(const RayScene& rays) const {
-        std::vector<PathOrigin> origins;
-        for (const SeenPoint& seen : seen_)
-            if (!seen.hit.escaped) origins.push_back(placePathOrigin(scene_, rays, seen.hit));
-        return origins;
+    /// What the surfaces seen reflect towards the eye, in the order of the rays that see one.
+    RadianceEstimate estimateReflected(const DistantLight& light, int samplesPerRay,
+                                       const PathTracerOptions& options) const {
+        if (options.walk.surfaceModel == SurfaceModel::gltf)
+            return estimateExitRadiance(scene_, rays_, light, placeExitPoints(options.walk),
+                                        samplesPerRay, options);
+        RadianceEstimate estimate =
+            estimateRadiance(scene_, rays_, light, placeOrigins(), samplesPerRay, options);
+        std::size_t origin = 0;
+        for (const SeenPoint& seen : seen_) {
+            if (seen.hit.escaped) continue;
+            const Vec3d albedo(evaluateAlbedo(scene_, seen.hit.point));
+            estimate.mean[origin] *= albedo;
+            estimate.variance[origin++] *= albedo * albedo;
+        }
+        return estimate;
     }
 
-    /// @param estimate  of the origins
+    /// @param estimate  of what is reflected
     void addUp(const RadianceEstimate& estimate, std::span<Vec3f> radiance,
                std::span<Vec3f> variance) const {
         const std::size_t raysPerPixel = seen_.size() / radiance.size();
@@ -40,10 +51,8 @@ class BlockTracer {
                     sum += Vec3d(lookUpBackground(view_, seen.direction));
                     continue;
                 }
-                const Vec3d albedo(evaluateAlbedo(scene_, seen.hit.point));
-                sum += albedo * estimate.mean[origin] +
-                       Vec3d(evaluateEmission(scene_, seen.hit.point));
-                varianceSum += albedo * albedo * estimate.variance[origin++];
+                sum += estimate.mean[origin] + Vec3d(evaluateEmission(scene_, seen.hit.point));
+                varianceSum += estimate.variance[origin++];
             }
             radiance[pixel] = Vec3f(sum / rayCount);
             variance[pixel] = Vec3f(varianceSum / (rayCount * rayCount));
@@ -51,7 +60,26 @@ class BlockTracer {
     }
 
   private:
+    std::vector<PathOrigin> placeOrigins() const {
+        std::vector<PathOrigin> origins;
+        for (const SeenPoint& seen : seen_)
+            if (!seen.hit.escaped) origins.push_back(placePathOrigin(scene_, rays_, seen.hit));
+        return origins;
+    }
+
+    std::vector<ExitPoint> placeExitPoints(const WalkOptions& options) const {
+        std::vector<ExitPoint> points;
+        for (const SeenPoint& seen : seen_) {
+            if (seen.hit.escaped) continue;
+            const PathOrigin origin = placePathOrigin(scene_, rays_, seen.hit);
+            points.push_back({origin, makeReflection(findBrdf(scene_, seen.hit.point, options),
+                                                     origin.normal, -seen.direction)});
+        }
+        return points;
+    }
+
     const Scene& scene_;
+    const RayScene& rays_;
     const RenderOptions& view_;
     std::vector<SeenPoint> seen_;
 };
@@ -74,9 +102,8 @@ PathTracedView pathTraceView(const Scene& scene, const RayScene& rays, const Dis
             return !options.progress ||
                    options.progress({"path-trace", "pixels", begin + done, pixelCount});
         };
-        const BlockTracer tracer(scene, view, cameraRays.findSeenPoints(begin, count));
-        tracer.addUp(estimateRadiance(scene, rays, light, tracer.placeOrigins(rays), samplesPerRay,
-                                      blockOptions),
+        const BlockTracer tracer(scene, rays, view, cameraRays.findSeenPoints(begin, count));
+        tracer.addUp(tracer.estimateReflected(light, samplesPerRay, blockOptions),
                      std::span(result.radiance.pixels).subspan(begin, count),
                      std::span(result.variance.pixels).subspan(begin, count));
     }

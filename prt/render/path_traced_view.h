@@ -12,8 +12,9 @@ struct PathTracedView {
     Image variance;
 };
 
-/// The picture that renderView approximates, along the same rays: albedo times B at each point
-/// seen, and emission where it is seen (a bake carries none in its transport).
+/// The picture that renderView approximates, along the same rays: what each point seen reflects to
+/// the eye, by the surface model of options.walk (diffuse: albedo times B), and emission where it
+/// is seen (a bake carries none in its transport).
 ///
 /// @param view           as for renderView; of threads, progress and the seed of paths
 ///                       `options` decides

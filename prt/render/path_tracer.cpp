@@ -3,7 +3,6 @@
 #include "prt/render/path_tracer.h"
 
 #include <algorithm>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -75,12 +74,12 @@ class RadianceVisitor final : public PathVisitor {
         std::vector<std::pair<Vec3f, Vec3f>> ends;
         for (Path& path : paths) {
             const LightSample sample = light_.sample(path.random);
-            const double cosineDensity = cosineDensityOf(path, sample.direction);
-            if (cosineDensity <= 0.0 || sample.density <= 0.0) continue;
-            const double balance = 1.0 / (1.0 + cosineDensity / sample.density);
+            const Scattering scattering = evaluateScattering(path, sample.direction);
+            if (scattering.value == Vec3d(0.0) || sample.density <= 0.0) continue;
+            const double balance = 1.0 / (1.0 + scattering.density / sample.density);
             indices.push_back(path.index);
             contributions.push_back(path.throughput * sample.radianceOverDensity *
-                                    static_cast<float>(cosineDensity * balance));
+                                    Vec3f(scattering.value * balance));
             ends.emplace_back(path.at.position, sample.direction);
         }
         RayStream stream(ends.size());
@@ -92,21 +91,15 @@ class RadianceVisitor final : public PathVisitor {
     }
 
     void escape(const Path& path, const Vec3f& direction) override {
+        if (path.density <= 0.0) return;
         const LightValue value = light_.evaluate(direction);
-        const double cosineDensity = cosineDensityOf(path, direction);
-        if (cosineDensity <= 0.0) return;
-        const double balance = lightSampling_ ? 1.0 / (1.0 + value.density / cosineDensity) : 1.0;
+        const double balance = lightSampling_ ? 1.0 / (1.0 + value.density / path.density) : 1.0;
         radiance_[path.index] += Vec3d(path.throughput * value.radiance) * balance;
     }
 
     std::span<const Vec3d> radiance() const { return radiance_; }
 
   private:
-    /// ⟨n, ω⟩/π, with which paths draw their directions.
-    static double cosineDensityOf(const Path& path, const Vec3f& direction) {
-        return static_cast<double>(path.at.normal.dot(direction)) * std::numbers::inv_pi;
-    }
-
     const RayScene& rays_;
     const DistantLight& light_;
     bool lightSampling_;
@@ -149,23 +142,32 @@ class TransferVisitor final : public PathVisitor {
     std::vector<double> values_;
 };
 
-/// Paths from some of many origins.
+void startAt(const PathOrigin& origin, Path& path) {
+    path.at = origin;
+}
+void startAt(const ExitPoint& point, Path& path) {
+    path.at = point.origin;
+    path.reflection = point.reflection;
+}
+
+/// Paths from some of many points.
+template <class Point>
 struct PathSource {
-    std::span<const PathOrigin> origins;
+    std::span<const Point> points;
     std::uint64_t firstStream = 0;
-    std::size_t sampleCount = 0;  // paths an origin
+    std::size_t sampleCount = 0;  // paths a point
     std::uint64_t seed = 1;
 
-    std::size_t pathCount() const { return origins.size() * sampleCount; }
+    std::size_t pathCount() const { return points.size() * sampleCount; }
 
-    /// Paths [begin, end), numbered origin after origin.
+    /// Paths [begin, end), numbered point after point.
     std::vector<Path> makePaths(std::size_t begin, std::size_t end) const {
         std::vector<Path> paths(end - begin);
         for (std::size_t i = begin; i < end; ++i) {
             Path& path = paths[i - begin];
             path.index = i - begin;
             path.random = RandomStream(seed ^ kPathSeedSalt, firstStream * sampleCount + i);
-            path.at = origins[i / sampleCount];
+            startAt(points[i / sampleCount], path);
         }
         return paths;
     }
@@ -178,10 +180,11 @@ void forBatches(std::size_t pathCount, const Walk& walk) {
         walk(begin, std::min(begin + kBatchPaths, pathCount));
 }
 
+template <class Point>
 std::vector<Moments> sumRadiance(const Scene& scene, const RayScene& rays,
-                                 const DistantLight& light, const PathSource& source,
+                                 const DistantLight& light, const PathSource<Point>& source,
                                  const PathTracerOptions& options) {
-    std::vector<Moments> moments(source.origins.size());
+    std::vector<Moments> moments(source.points.size());
     forBatches(source.pathCount(), [&](std::size_t begin, std::size_t end) {
         RadianceVisitor visitor(rays, light, options.lightSampling, end - begin);
         walkPaths(scene, rays, options.walk, source.makePaths(begin, end), visitor);
@@ -196,23 +199,21 @@ std::size_t originsPerChunk(std::size_t sampleCount) {
     return std::max<std::size_t>(kBatchPaths / sampleCount, 1);
 }
 
-}  // namespace
-
-RadianceEstimate estimateRadiance(const Scene& scene, const RayScene& rays,
-                                  const DistantLight& light, std::span<const PathOrigin> origins,
-                                  int sampleCount, const PathTracerOptions& options) {
+template <class Point>
+RadianceEstimate estimateMeans(const Scene& scene, const RayScene& rays, const DistantLight& light,
+                               std::span<const Point> points, int sampleCount,
+                               const PathTracerOptions& options) {
     checkOptions(options, sampleCount);
-    const auto pathsPerOrigin = static_cast<std::size_t>(sampleCount);
-    RadianceEstimate estimate{std::vector<Vec3d>(origins.size()),
-                              std::vector<Vec3d>(origins.size())};
-    ProgressReporter progress(options.progress, "estimate", "points", origins.size());
-    parallelFor(origins.size(), {options.threadCount, originsPerChunk(pathsPerOrigin)},
+    const auto pathsPerPoint = static_cast<std::size_t>(sampleCount);
+    RadianceEstimate estimate{std::vector<Vec3d>(points.size()), std::vector<Vec3d>(points.size())};
+    ProgressReporter progress(options.progress, "estimate", "points", points.size());
+    parallelFor(points.size(), {options.threadCount, originsPerChunk(pathsPerPoint)},
                 [&](std::size_t begin, std::size_t end) {
+                    const PathSource<Point> source{points.subspan(begin, end - begin),
+                                                   options.firstStream + begin, pathsPerPoint,
+                                                   options.seed};
                     const std::vector<Moments> moments =
-                        sumRadiance(scene, rays, light,
-                                    {origins.subspan(begin, end - begin),
-                                     options.firstStream + begin, pathsPerOrigin, options.seed},
-                                    options);
+                        sumRadiance(scene, rays, light, source, options);
                     for (std::size_t i = begin; i < end; ++i) {
                         const Moments& sums = moments[i - begin];
                         estimate.mean[i] = sums.sum / static_cast<double>(sampleCount);
@@ -221,6 +222,20 @@ RadianceEstimate estimateRadiance(const Scene& scene, const RayScene& rays,
                     progress.advance(end - begin);
                 });
     return estimate;
+}
+
+}  // namespace
+
+RadianceEstimate estimateRadiance(const Scene& scene, const RayScene& rays,
+                                  const DistantLight& light, std::span<const PathOrigin> origins,
+                                  int sampleCount, const PathTracerOptions& options) {
+    return estimateMeans(scene, rays, light, origins, sampleCount, options);
+}
+
+RadianceEstimate estimateExitRadiance(const Scene& scene, const RayScene& rays,
+                                      const DistantLight& light, std::span<const ExitPoint> points,
+                                      int sampleCount, const PathTracerOptions& options) {
+    return estimateMeans(scene, rays, light, points, sampleCount, options);
 }
 
 TransferEstimate estimateTransfer(const Scene& scene, const RayScene& rays, int bandCount,
@@ -237,8 +252,9 @@ TransferEstimate estimateTransfer(const Scene& scene, const RayScene& rays, int 
     parallelFor(
         origins.size(), {options.threadCount, originsPerChunk(pathsPerOrigin)},
         [&](std::size_t begin, std::size_t end) {
-            const PathSource source{origins.subspan(begin, end - begin),
-                                    options.firstStream + begin, pathsPerOrigin, options.seed};
+            const PathSource<PathOrigin> source{origins.subspan(begin, end - begin),
+                                                options.firstStream + begin, pathsPerOrigin,
+                                                options.seed};
             const auto sums =
                 std::span(estimate.mean).subspan(begin * rowSize, (end - begin) * rowSize);
             const auto squareSums =

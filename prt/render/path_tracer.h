@@ -10,8 +10,8 @@
 
 namespace prt {
 
-// The truth that a bake is held against: unbiased path tracing of diffuse light, which shares the
-// scene and the ray tracer with the baker and none of its transport.
+// The truth that a bake is held against: unbiased path tracing, which shares the scene and the ray
+// tracer with the baker and none of its transport.
 
 struct PathTracerOptions {
     WalkOptions walk{};
@@ -27,11 +27,12 @@ struct PathTracerOptions {
 
 /// Means of independent paths, and how far they can be trusted.
 struct RadianceEstimate {
-    std::vector<Vec3d> mean;      ///< B before albedo (C6), W·sr⁻¹·m⁻²
+    std::vector<Vec3d> mean;      ///< W·sr⁻¹·m⁻²
     std::vector<Vec3d> variance;  ///< of the mean
 };
 
-/// B at each origin: the light that arrives there, times ⟨n, ω⟩/π.
+/// B before albedo at each origin (C6): the light that arrives there, times ⟨n, ω⟩/π. Origins are
+/// diffuse whatever the model of options.walk, which is of the surfaces that paths meet.
 ///
 /// @param sampleCount  paths an origin, at least 2
 /// @return             one a origin; the same for any number of threads (C10)
@@ -40,6 +41,22 @@ RadianceEstimate estimateRadiance(const Scene& scene, const RayScene& rays,
                                   const DistantLight& light, std::span<const PathOrigin> origins,
                                   int sampleCount, const PathTracerOptions& options = {});
 
+/// A point that is looked at from one side.
+struct ExitPoint {
+    PathOrigin origin;
+    Reflection reflection;  ///< makeReflection, with the origin's normal
+};
+
+/// The radiance that leaves each point towards its view, ∫ f_r(ω, ω_o) ⟨n, ω⟩ L(ω) dω, without
+/// what it emits.
+///
+/// @param sampleCount  paths a point, at least 2
+/// @return             one a point; the same for any number of threads (C10)
+/// @throws Error       invalidOption, cancelled
+RadianceEstimate estimateExitRadiance(const Scene& scene, const RayScene& rays,
+                                      const DistantLight& light, std::span<const ExitPoint> points,
+                                      int sampleCount, const PathTracerOptions& options = {});
+
 /// Transfer vectors, as TransferLayer has them with three channels.
 struct TransferEstimate {
     int bandCount = 0;
@@ -47,8 +64,8 @@ struct TransferEstimate {
     std::vector<double> variance;  ///< of the mean, likewise
 };
 
-/// T_i at each origin (C6): the same walk with y_i in place of the light; only paths that leave the
-/// scene count, so options.lightSampling means nothing.
+/// T_i at each origin (C6): the walk of estimateRadiance with y_i in place of the light; only paths
+/// that leave the scene count, so options.lightSampling means nothing.
 ///
 /// @param bandCount, sampleCount  at least 1, and 2
 /// @throws Error                  invalidOption, cancelled

@@ -5,6 +5,7 @@
 #include "prt/render/path_walk.h"
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 
 #include "prt/base/assert.h"
@@ -22,10 +23,18 @@ constexpr int kBouncesBeforeRoulette = 2;
 /// Ends paths between perfect reflectors too.
 constexpr float kHighestSurvival = 0.98f;
 
+/// ⟨n, ω⟩/π, with which diffuse points draw their directions; negative below the horizon.
+double cosineDensity(const Vec3f& normal, const Vec3f& direction) {
+    return static_cast<double>(normal.dot(direction)) * std::numbers::inv_pi;
+}
+
 class Walk {
   public:
     Walk(const Scene& scene, const RayScene& rays, const WalkOptions& options)
         : scene_(scene), rays_(rays), options_(options) {
+        PRT_ASSERT(
+            options.materialBrdfs.empty() || options.materialBrdfs.size() == scene.materials.size(),
+            "one BRDF a material");
         if (options.vertexFronts.empty()) return;
         vertexOffsets_ = vertexOffsets(scene);
         PRT_ASSERT(options.vertexFronts.size() == scene.vertexCount(), "one origin a vertex");
@@ -43,10 +52,10 @@ class Walk {
 
         std::size_t keptCount = 0;
         for (std::size_t i = 0; i < paths.size(); ++i) {
+            const Vec3f direction(stream.directionX[i], stream.directionY[i], stream.directionZ[i]);
             if (hits[i].escaped)
-                visitor.escape(paths[i],
-                               {stream.directionX[i], stream.directionY[i], stream.directionZ[i]});
-            else if (scatter(paths[i], hits[i]))
+                visitor.escape(paths[i], direction);
+            else if (scatter(paths[i], hits[i], direction))
                 paths[keptCount++] = paths[i];
         }
         paths.erase(paths.begin() + static_cast<std::ptrdiff_t>(keptCount), paths.end());
@@ -54,21 +63,37 @@ class Walk {
 
   private:
     static Vec3f drawDirection(Path& path) {
+        if (path.reflection) {
+            const double u = path.random.nextUnitDouble();
+            const double v = path.random.nextUnitDouble();
+            const ReflectedDirection drawn = drawReflected(*path.reflection, path.at.normal, u, v);
+            path.throughput *= drawn.weight;
+            path.density = drawn.density;
+            return drawn.direction;
+        }
         const float u = unitFloatFromBits(path.random.nextBits());
         const float v = unitFloatFromBits(path.random.nextBits());
-        return frameFromNormal(path.at.normal).worldFromLocal(sampleCosineHemisphere(u, v));
+        const Vec3f direction =
+            frameFromNormal(path.at.normal).worldFromLocal(sampleCosineHemisphere(u, v));
+        path.density = cosineDensity(path.at.normal, direction);
+        return direction;
     }
 
     /// Whether the path goes on from the surface it has met.
-    bool scatter(Path& path, const Hit& hit) const {
+    bool scatter(Path& path, const Hit& hit, const Vec3f& direction) const {
         if (path.bounceCount == options_.bounceCount) return false;
         const Material& material = scene_.materials[scene_.meshes[hit.point.mesh].material];
         if (hit.backFace && !material.doubleSided) return false;
         ++path.bounceCount;
-        path.throughput *= evaluateAlbedo(scene_, hit.point);
+        const bool isDiffuse = options_.surfaceModel == SurfaceModel::diffuse;
+        if (isDiffuse) path.throughput *= evaluateAlbedo(scene_, hit.point);
         if (!survives(path)) return false;
         path.at = vertexOffsets_.empty() ? placePathOrigin(scene_, rays_, hit)
                                          : drawCorner(path.random, hit);
+        path.reflection.reset();
+        if (!isDiffuse)
+            path.reflection =
+                makeReflection(findBrdf(scene_, hit.point, options_), path.at.normal, -direction);
         return true;
     }
 
@@ -118,6 +143,22 @@ PathOrigin placePathOrigin(const Scene& scene, const RayScene& rays, const Hit& 
     const Vec3f geometric = triangleNormal(a, b, c) * side;
     const Vec3f normal = shading.length2() > 0.0f ? shading.normalized() : geometric;
     return {offsetRayOrigin(point, geometric), normal};
+}
+
+Brdf findBrdf(const Scene& scene, const SurfacePoint& point, const WalkOptions& options) {
+    const Vec3f baseColor = evaluateAlbedo(scene, point);
+    if (options.surfaceModel == SurfaceModel::diffuse)
+        return {.lobes = {LambertLobe{.albedo = Vec3d(baseColor)}}};
+    if (!options.materialBrdfs.empty())
+        return options.materialBrdfs[scene.meshes[point.mesh].material];
+    return makeGltfBrdf(baseColor, evaluateMetallicRoughness(scene, point));
+}
+
+Scattering evaluateScattering(const Path& path, const Vec3f& direction) {
+    if (path.reflection) return evaluateReflection(*path.reflection, path.at.normal, direction);
+    const double density = cosineDensity(path.at.normal, direction);
+    if (density <= 0.0) return {};
+    return {Vec3d(density), density};
 }
 
 void walkPaths(const Scene& scene, const RayScene& rays, const WalkOptions& options,
