@@ -146,11 +146,11 @@ PathOrigin placePathOrigin(const Scene& scene, const RayScene& rays, const Hit& 
 }
 
 Brdf findBrdf(const Scene& scene, const SurfacePoint& point, const WalkOptions& options) {
-    const Vec3f baseColor = evaluateAlbedo(scene, point);
-    if (options.surfaceModel == SurfaceModel::diffuse)
-        return {.lobes = {LambertLobe{.albedo = Vec3d(baseColor)}}};
-    if (!options.materialBrdfs.empty())
+    const bool isGltf = options.surfaceModel == SurfaceModel::gltf;
+    if (isGltf && !options.materialBrdfs.empty())
         return options.materialBrdfs[scene.meshes[point.mesh].material];
+    const Vec3f baseColor = evaluateAlbedo(scene, point);
+    if (!isGltf) return {.lobes = {LambertLobe{.albedo = Vec3d(baseColor)}}};
     return makeGltfBrdf(baseColor, evaluateMetallicRoughness(scene, point));
 }
 

@@ -43,7 +43,8 @@ struct WalkOptions {
     /// Origins at the vertices of the scene, numbered mesh after mesh, and those of their other
     /// sides. Given these, a path that meets a triangle goes on from one of its corners, drawn with
     /// its barycentric weight: its mean then is the transfer that is linear between vertices, which
-    /// a bake solves for [Goral84]. Without them it goes on from where it met the triangle.
+    /// a bake solves for [Goral84]. What the surface is made of stays that of the point it met.
+    /// Without them it goes on from where it met the triangle.
     std::span<const PathOrigin> vertexFronts{};
     std::span<const PathOrigin> vertexBacks{};  ///< needed where a material is double-sided
 };

@@ -287,6 +287,27 @@ TEST(GlossyPaths, OnlyDoubleSidedBacksReflect) {
                 kSigmas * std::hypot(front.standardError.x, otherSide.standardError.x));
 }
 
+/// A plate overhead whose corners are said to lie elsewhere, under an open sky: it sends down what
+/// its BRDF makes of the sky there, with its own view in their frame.
+TEST(GlossyPaths, PathsMayGoOnFromCornersOfTheTriangle) {
+    const Scene scene = assembleScene({{makeQuad({-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1})}});
+    const RayScene rays(scene);
+    const Vec3f tilted = Vec3f(0.3f, 0.0f, -1.0f).normalized();
+    const std::vector<PathOrigin> corners(4, {rays.tracePoint({9, 0, 0}), tilted});
+    const std::vector<Brdf> brdfs = {makeGgx(0.5)};
+    PathTracerOptions options = glossyOptions(brdfs);
+    options.walk.vertexFronts = corners;
+    options.walk.bounceCount = 1;
+    const Vec3d view = viewAt(45.0);
+    // A mirror: its rays meet the plate at (−0.5, 0, 1).
+    const ExitPoint point = exitPointAt(rays, Vec3f(0.5f, 0.0f, 0.0f), makeGgx(0.0), view);
+    const Vec3d back = Vec3d(view.x, 0.0, -view.z);
+    const Frame<double> frame = frameFromNormal(Vec3d(tilted));
+    const Vec3d local(back.dot(frame.tangent), back.dot(frame.bitangent), back.dot(frame.normal));
+    expectNear(measure(scene, rays, *makeWhiteSky(), point, 20'000, options),
+               integrateCone(brdfs[0], local, Vec3d(kUp), 0.5 * kPi), 1e-3, "corner");
+}
+
 TEST(GlossyPaths, MaterialsAreThoseOfTheSceneUnlessOthersAreGiven) {
     Scene scene = assembleScene({{makePatch(Vec3f(0.0f), kUp, 1.0f), Vec3f(0.8f, 0.5f, 0.2f)}});
     scene.materials[0].metallicFactor = 0.4f;

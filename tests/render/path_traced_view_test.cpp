@@ -6,8 +6,10 @@
 
 #include "prt/base/error.h"
 #include "prt/light/analytic_lights.h"
+#include "prt/render/camera_rays.h"
 #include "prt/scene/framing.h"
 #include "prt/scene/procedural.h"
+#include "tests/render/same_means.h"
 #include "tests/support/scenes.h"
 
 namespace prt {
@@ -74,6 +76,65 @@ TEST(PathTracedView, ASunWithoutExtentCastsAHardShadow) {
             EXPECT_LT(view.variance.pixels[i].x, 1e-12f);
         }
     }
+}
+
+TEST(PathTracedView, AMirrorShowsTheLightAroundItToEveryPixel) {
+    Scene scene = assembleScene({{makeFloor(20.0f, 0.0f, 1), Vec3f(0.9f, 0.7f, 0.5f)}});
+    scene.materials[0].metallicFactor = 1.0f;
+    scene.materials[0].roughnessFactor = 0.0f;
+    scene.materials[0].emissiveFactor = {0.0f, 0.0f, 0.5f};
+    const RayScene rays(scene);
+    const Camera camera = lookAt({0.3f, 1.5f, 2.0f}, Vec3f(0.0f), 0.6f);
+    const RenderOptions view = makeView(16, 12);
+    const Lighting lighting = sunLighting(Vec3d(0.2, 0.5, -0.7).normalized(), 0.5, 4);
+    PathTracerOptions options;
+    options.walk.surfaceModel = SurfaceModel::gltf;
+    options.lightSampling = false;
+    const PathTracedView traced =
+        pathTraceView(scene, rays, *makeBandLimitedLight(lighting), camera, view, 2, options);
+    const CameraRays cameraRays(scene, rays, camera, view);
+    const std::vector<SeenPoint> seen = cameraRays.findSeenPoints(0, 16 * 12);
+    for (std::size_t pixel = 0; pixel < traced.radiance.pixels.size(); ++pixel) {
+        Vec3d expected(0.0);
+        for (std::size_t i = 4 * pixel; i < 4 * pixel + 4; ++i) {
+            ASSERT_FALSE(seen[i].hit.escaped);
+            const Vec3d direction(seen[i].direction);
+            const Vec3d color(Vec3f(0.9f, 0.7f, 0.5f));
+            const Vec3d fresnel = color + (Vec3d(1.0) - color) * std::pow(1.0 + direction.y, 5);
+            expected += fresnel * reconstruct(lighting, {direction.x, -direction.y, direction.z});
+        }
+        expected = expected / 4.0 + Vec3d(0.0, 0.0, 0.5);
+        // The smoothest facets there are lean by 10⁻⁴, some of them by more.
+        constexpr double kFacets = 3e-3;
+        EXPECT_NEAR((Vec3d(traced.radiance.pixels[pixel]) - expected).length(), 0.0, kFacets);
+    }
+}
+
+/// Smooth normals and silhouettes included.
+TEST(PathTracedView, APictureOfLambertBrdfsIsThatOfTheDiffuseModel) {
+    const Scene scene = assembleScene({{makeFloor(2.0f, 0.0f, 1), Vec3f(0.3f, 0.5f, 0.7f)},
+                                       {makeSphere({0.0f, 0.6f, 0.0f}, 0.5f, 16), Vec3f(0.8f)}});
+    const std::vector<Brdf> brdfs = {{.lobes = {LambertLobe{Vec3d(Vec3f(0.3f, 0.5f, 0.7f))}}},
+                                     {.lobes = {LambertLobe{Vec3d(Vec3f(0.8f))}}}};
+    const RayScene rays(scene);
+    const Camera camera = lookAt({0.0f, 1.2f, 2.0f}, {0.0f, 0.5f, 0.0f}, 0.7f);
+    const auto light = makeSunLight(Vec3d(1.0, 1.0, 0.3).normalized(), 0.3);
+    const RenderOptions view = makeView(40, 30);
+    PathTracerOptions options;
+    const PathTracedView diffuse = pathTraceView(scene, rays, *light, camera, view, 100, options);
+    options.walk.surfaceModel = SurfaceModel::gltf;
+    options.walk.materialBrdfs = brdfs;
+    options.seed = 2;
+    const PathTracedView lambert = pathTraceView(scene, rays, *light, camera, view, 100, options);
+    const auto estimateOf = [](const PathTracedView& picture) {
+        RadianceEstimate estimate;
+        for (std::size_t i = 0; i < picture.radiance.pixels.size(); ++i) {
+            estimate.mean.emplace_back(picture.radiance.pixels[i]);
+            estimate.variance.emplace_back(picture.variance.pixels[i]);
+        }
+        return estimate;
+    };
+    test::expectSameMeans(estimateOf(diffuse), estimateOf(lambert));
 }
 
 TEST(PathTracedView, TheVarianceIsThatOfOtherSeeds) {
