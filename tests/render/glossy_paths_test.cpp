@@ -245,17 +245,27 @@ TEST(GlossyPaths, NoLightEntersAClosedBoxHoweverItsNormalsLean) {  // C11
             EXPECT_EQ(radiance, Vec3d(0.0));
 }
 
-TEST(GlossyPaths, ALeaningNormalMirrorsNothingFromBelowTheSurface) {  // C11
-    Scene scene = assembleScene({{makeQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0})}});
-    const Vec3f leaning(std::sqrt(0.75f), 0.0f, 0.5f);
-    for (Vec3f& normal : scene.meshes[0].normals)
-        normal = leaning;
-    const RayScene rays(scene);
-    const PathOrigin origin =
-        placePathOrigin(scene, rays, {false, 0.0f, {0, 0, 0.4f, 0.3f}, false});
-    EXPECT_NEAR((origin.normal - leaning).length(), 0.0f, 1e-6f);
+/// A square in the plane z = 0 whose vertex normals lean by 60° towards +x.
+class LeaningNormal : public testing::Test {
+  protected:
+    LeaningNormal() : scene(makeLeaningSquare()), rays(scene) {
+        origin = placePathOrigin(scene, rays, {false, 0.0f, {0, 0, 0.4f, 0.3f}, false});
+    }
+
+    static Scene makeLeaningSquare() {
+        Scene square = assembleScene({{makeQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0})}});
+        square.meshes[0].normals.assign(4, Vec3f(std::sqrt(0.75f), 0.0f, 0.5f));
+        return square;
+    }
+
+    Scene scene;
+    RayScene rays;
+    PathOrigin origin;
+};
+
+TEST_F(LeaningNormal, MirrorsNothingFromBelowTheSurface) {  // C11
     const std::vector<Brdf> brdfs = {makeGgx(0.3)};
-    const ExitPoint point{origin, makeReflection(brdfs[0], leaning, kUp)};
+    const ExitPoint point{origin, makeReflection(brdfs[0], origin.normal, kUp)};
     const Vec3d mirrored(std::sqrt(0.75), 0.0, -0.5);
     for (const double halfAngle : {0.0, 0.1})
         for (const bool lightSampling : {true, false}) {
@@ -265,6 +275,18 @@ TEST(GlossyPaths, ALeaningNormalMirrorsNothingFromBelowTheSurface) {  // C11
                 measure(scene, rays, *makeSunLight(mirrored, halfAngle), point, 1000, options).mean,
                 Vec3d(0.0));
         }
+}
+
+// Of the sky about the normal the surface hides a part: (1 + cos 60°)/2 of its light arrives.
+TEST_F(LeaningNormal, DiffuseLightIsTheSameFromWhereverTheSurfaceIsSeen) {
+    const std::vector<Brdf> brdfs = {{.lobes = {LambertLobe{Vec3d(0.8)}}}};
+    PathTracerOptions options = glossyOptions(brdfs);
+    options.walk.bounceCount = 0;
+    for (const Vec3f& view : {kUp, Vec3f(-0.95f, 0.0f, 0.31f).normalized()}) {
+        const ExitPoint point{origin, makeReflection(brdfs[0], origin.normal, view)};
+        expectNear(measure(scene, rays, *makeWhiteSky(), point, 20'000, options), Vec3d(0.6),
+                   kFloatRounding, "leaning");
+    }
 }
 
 TEST(GlossyPaths, OnlyDoubleSidedBacksReflect) {
