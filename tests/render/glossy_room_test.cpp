@@ -89,6 +89,35 @@ TEST_F(GlossyRoom, LambertBrdfsAreTheDiffuseModel) {
     expectSameMeans(seen, estimate(*light, {}, 4));
 }
 
+/// Of diffuse receivers between glossy surfaces.
+TEST_F(GlossyRoom, TransferTimesLightIsTheRadianceUnderIt) {
+    const Lighting lighting =
+        add(uniformLighting(Vec3d(1.0, 0.8, 0.6), 3), sunLighting(Vec3d(0.0, -0.6, 0.8), 0.5, 3));
+    const std::vector<PathOrigin> origins = placeVertexOrigins(scene, rays);
+    PathTracerOptions options = glossyOptions(brdfs);
+    options.walk.bounceCount = 2;
+    const RadianceEstimate radiance =
+        estimateRadiance(scene, rays, *makeBandLimitedLight(lighting), origins, 1000, options);
+    options.seed = 2;
+    const TransferEstimate transfer = estimateTransfer(scene, rays, 3, origins, 1000, options);
+    double squares = 0.0, noise = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < origins.size(); ++i)
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const int c = static_cast<int>(channel);
+            double relit = 0.0;
+            for (std::size_t k = 0; k < 9; ++k)
+                relit += transfer.mean[(3 * i + channel) * 9 + k] * lighting.coefficients[k][c];
+            squares += std::pow(relit - radiance.mean[i][c], 2);
+            noise += radiance.variance[i][c];
+            sum += relit - radiance.mean[i][c];
+        }
+    // Both are as noisy as each other, within a factor of a few.
+    EXPECT_LT(squares, 10.0 * noise);
+    EXPECT_GT(squares, 0.5 * noise);
+    // Three channels go together.
+    EXPECT_LT(std::abs(sum), kSigmas * std::sqrt(3.0 * squares));
+}
+
 TEST_F(GlossyRoom, AnyNumberOfThreadsGivesTheSameBits) {  // C10
     const auto light = makeSunLight(toSun, 0.3);
     PathTracerOptions options = glossyOptions(brdfs);
