@@ -38,6 +38,16 @@ float cosineHemispherePdf(const Vec3f& direction) {
     return std::max(0.0f, direction.z) * std::numbers::inv_pi_v<float>;
 }
 
+Vec3f sampleUniformHemisphere(float u, float v) {
+    const float radius = std::sqrt(u * (2.0f - u));
+    const float phi = std::numbers::pi_v<float> * (2.0f * v - 1.0f);
+    return {radius * std::cos(phi), radius * std::sin(phi), 1.0f - u};
+}
+
+float uniformHemispherePdf(const Vec3f& direction) {
+    return direction.z < 0.0f ? 0.0f : std::numbers::inv_pi_v<float> / 2.0f;
+}
+
 Vec3f sampleUniformSphere(float u, float v) {
     const float cosTheta = 1.0f - 2.0f * u;
     const float sinTheta = std::sqrt(std::max(0.0f, 1.0f - cosTheta * cosTheta));

@@ -50,6 +50,14 @@ Vec3f sampleCosineHemisphere(float u, float v);
 /// Its density, cos θ / π per steradian; 0 below the horizon.
 float cosineHemispherePdf(const Vec3f& direction);
 
+/// Uniform direction in the hemisphere about +z: cos θ = 1 − u, φ = π (2v − 1).
+///
+/// @param u, v  in (0, 1)
+Vec3f sampleUniformHemisphere(float u, float v);
+
+/// Its density, 1/2π per steradian; 0 below the horizon.
+float uniformHemispherePdf(const Vec3f& direction);
+
 /// Uniform direction: cos θ = 1 − 2u, φ = 2πv [Kautz04].
 Vec3f sampleUniformSphere(float u, float v);
 

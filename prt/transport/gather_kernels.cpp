@@ -63,20 +63,20 @@ struct Direction {
     Vector x, y, z;
 };
 
-/// sampleCosineHemisphere, a direction a lane. Sine and cosine are those of a quarter of φ, within
-/// ±π/4, where short series are exact to rounding, doubled twice.
-HWY_INLINE Direction cosineHemisphereLanes(Vector u, Vector v) {
+/// Sine and cosine of φ = π (2v − 1), from those of a quarter of φ, within ±π/4, where short series
+/// are exact to rounding, doubled twice.
+HWY_INLINE void sinCosLanes(Vector v, Vector& sine, Vector& cosine) {
     const Lanes d;
     constexpr float kPi = std::numbers::pi_v<float>;
     const Vector angle = hn::MulAdd(v, hn::Set(d, 0.5f * kPi), hn::Set(d, -0.25f * kPi));
     const Vector square = hn::Mul(angle, angle);
 
-    Vector sine = hn::Set(d, 1.0f / 362880.0f);
+    sine = hn::Set(d, 1.0f / 362880.0f);
     sine = hn::MulAdd(sine, square, hn::Set(d, -1.0f / 5040.0f));
     sine = hn::MulAdd(sine, square, hn::Set(d, 1.0f / 120.0f));
     sine = hn::MulAdd(sine, square, hn::Set(d, -1.0f / 6.0f));
     sine = hn::MulAdd(hn::Mul(sine, square), angle, angle);
-    Vector cosine = hn::Set(d, 1.0f / 40320.0f);
+    cosine = hn::Set(d, 1.0f / 40320.0f);
     cosine = hn::MulAdd(cosine, square, hn::Set(d, -1.0f / 720.0f));
     cosine = hn::MulAdd(cosine, square, hn::Set(d, 1.0f / 24.0f));
     cosine = hn::MulAdd(cosine, square, hn::Set(d, -0.5f));
@@ -86,12 +86,33 @@ HWY_INLINE Direction cosineHemisphereLanes(Vector u, Vector v) {
         cosine = hn::NegMulAdd(hn::Add(sine, sine), sine, hn::Set(d, 1.0f));
         sine = hn::Add(product, product);
     }
-
-    const Vector radius = hn::Sqrt(u);
-    return {hn::Mul(radius, cosine), hn::Mul(radius, sine), hn::Sqrt(hn::Sub(hn::Set(d, 1.0f), u))};
 }
 
-void sampleDirections(const SamplePattern& pattern, const ReceiverSampling& sampling,
+/// sampleCosineHemisphere, a direction a lane.
+struct CosineHemisphere {
+    static HWY_INLINE Direction map(Vector u, Vector v) {
+        const Lanes d;
+        Vector sine, cosine;
+        sinCosLanes(v, sine, cosine);
+        const Vector radius = hn::Sqrt(u);
+        return {hn::Mul(radius, cosine), hn::Mul(radius, sine),
+                hn::Sqrt(hn::Sub(hn::Set(d, 1.0f), u))};
+    }
+};
+
+/// sampleUniformHemisphere, a direction a lane.
+struct UniformHemisphere {
+    static HWY_INLINE Direction map(Vector u, Vector v) {
+        const Lanes d;
+        Vector sine, cosine;
+        sinCosLanes(v, sine, cosine);
+        const Vector radius = hn::Sqrt(hn::Mul(u, hn::Sub(hn::Set(d, 2.0f), u)));
+        return {hn::Mul(radius, cosine), hn::Mul(radius, sine), hn::Sub(hn::Set(d, 1.0f), u)};
+    }
+};
+
+template <class Hemisphere>
+void sampleHemisphere(const SamplePattern& pattern, const ReceiverSampling& sampling,
                       RayStream& rays) {
     PRT_ASSERT(pattern.reversedX.size() == rays.size(),
                "the stream has a ray for each point of the pattern");
@@ -115,12 +136,22 @@ void sampleDirections(const SamplePattern& pattern, const ReceiverSampling& samp
         const BitVector x = hn::LoadU(bitLanes, pattern.reversedX.data() + i);
         const BitVector y = hn::LoadU(bitLanes, pattern.reversedY.data() + i);
         const Direction local =
-            cosineHemisphereLanes(unitFromBits(reverseBitLanes(scrambleLanes(x, sampling.seedX))),
-                                  unitFromBits(reverseBitLanes(scrambleLanes(y, sampling.seedY))));
+            Hemisphere::map(unitFromBits(reverseBitLanes(scrambleLanes(x, sampling.seedX))),
+                            unitFromBits(reverseBitLanes(scrambleLanes(y, sampling.seedY))));
         hn::StoreU(rotate(local, 0), d, rays.directionX.data() + i);
         hn::StoreU(rotate(local, 1), d, rays.directionY.data() + i);
         hn::StoreU(rotate(local, 2), d, rays.directionZ.data() + i);
     }
+}
+
+void sampleDirections(const SamplePattern& pattern, const ReceiverSampling& sampling,
+                      RayStream& rays) {
+    sampleHemisphere<CosineHemisphere>(pattern, sampling, rays);
+}
+
+void sampleUniformDirections(const SamplePattern& pattern, const ReceiverSampling& sampling,
+                             RayStream& rays) {
+    sampleHemisphere<UniformHemisphere>(pattern, sampling, rays);
 }
 
 template <int kBandCount>
@@ -216,6 +247,7 @@ HWY_AFTER_NAMESPACE();
 namespace prt {
 
 HWY_EXPORT(sampleDirections);
+HWY_EXPORT(sampleUniformDirections);
 HWY_EXPORT(sumVisible);
 HWY_EXPORT(multiplyRow);
 
@@ -236,8 +268,9 @@ GatherKernels selectGatherKernels(Isa isa) {
     hwy::ChosenTarget target;
     target.Update(hwy::SupportedTargets() & ~(kTargets[static_cast<std::size_t>(isa)] - 1));
     const std::size_t index = target.GetIndex();
-    return {HWY_DISPATCH_TABLE(sampleDirections)[index], HWY_DISPATCH_TABLE(sumVisible)[index],
-            HWY_DISPATCH_TABLE(multiplyRow)[index]};
+    return {HWY_DISPATCH_TABLE(sampleDirections)[index],
+            HWY_DISPATCH_TABLE(sampleUniformDirections)[index],
+            HWY_DISPATCH_TABLE(sumVisible)[index], HWY_DISPATCH_TABLE(multiplyRow)[index]};
 }
 
 }  // namespace prt

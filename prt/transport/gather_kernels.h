@@ -58,6 +58,10 @@ struct GatherKernels {
     void (*sampleDirections)(const SamplePattern& pattern, const ReceiverSampling& sampling,
                              RayStream& rays);
 
+    /// The same, uniformly distributed over the hemisphere.
+    void (*sampleUniformDirections)(const SamplePattern& pattern, const ReceiverSampling& sampling,
+                                    RayStream& rays);
+
     /// Sums y_i over the directions that are not blocked (tFar > 0).
     /// @param sums  n², written
     void (*sumVisible)(const RayStream& rays, int bandCount, std::span<float> sums);

@@ -104,6 +104,20 @@ TEST(Sampling, CosineHemisphereFollowsItsDensity) {  // B2
     EXPECT_LT(chiSquare(counts, kSampleCount), kChiSquareLimit);
 }
 
+TEST(Sampling, UniformHemisphereFollowsItsDensity) {  // B2
+    RandomStream random(6, 0);
+    std::vector<int> counts(256);
+    for (int i = 0; i < kSampleCount; ++i) {
+        const float u = unitFloatFromBits(random.nextBits());
+        const Vec3f direction = sampleUniformHemisphere(u, unitFloatFromBits(random.nextBits()));
+        ASSERT_NEAR(direction.length(), 1.0f, 1e-6f);
+        ASSERT_GE(direction.z, 0.0f);
+        // Zones of equal height have equal areas.
+        ++counts[cellOf(static_cast<double>(direction.z), std::atan2(direction.y, direction.x))];
+    }
+    EXPECT_LT(chiSquare(counts, kSampleCount), kChiSquareLimit);
+}
+
 TEST(Sampling, UniformSphereFollowsItsDensity) {  // B2
     RandomStream random(7, 0);
     std::vector<int> counts(256);
@@ -120,6 +134,9 @@ TEST(Sampling, UniformSphereFollowsItsDensity) {  // B2
 TEST(Sampling, DensitiesMatchTheirDirections) {
     EXPECT_FLOAT_EQ(cosineHemispherePdf({0.0f, 0.0f, 1.0f}), std::numbers::inv_pi_v<float>);
     EXPECT_EQ(cosineHemispherePdf({0.0f, 0.0f, -1.0f}), 0.0f);
+    EXPECT_FLOAT_EQ(uniformHemispherePdf({0.6f, 0.0f, 0.8f}) * 2.0f * std::numbers::pi_v<float>,
+                    1.0f);
+    EXPECT_EQ(uniformHemispherePdf({0.6f, 0.0f, -0.8f}), 0.0f);
     EXPECT_FLOAT_EQ(uniformSpherePdf() * 4.0f * std::numbers::pi_v<float>, 1.0f);
 }
 

@@ -18,25 +18,19 @@ constexpr float kDirectionTolerance = 2e-6f;
 // A mean of 256 values around 1 in float, summed in another order.
 constexpr float kSumTolerance = 1e-4f;
 
-class GatherKernelsTest : public testing::TestWithParam<Isa> {
-  protected:
-    void SetUp() override {
-        if (GetParam() > detectIsa()) GTEST_SKIP() << "this machine lacks the instruction set";
-    }
-    const GatherKernels kernels_ = selectGatherKernels(GetParam());
-};
-
-TEST_P(GatherKernelsTest, DirectionsAreTheScrambledPointsAboutTheNormal) {
+/// @param sample  by the kernel under test
+/// @param map     what takes a point of the square to a direction about +z
+void expectScrambledPoints(decltype(GatherKernels::sampleDirections) sample,
+                           Vec3f (*map)(float, float)) {
     const SamplePattern pattern(kSampleCount);
     RayStream rays(kSampleCount);
     for (const Vec3f& normal :
          {Vec3f(0, 0, 1), Vec3f(0, 0, -1), Vec3f(1, 0, 0), Vec3f(0.6f, -0.64f, 0.48f)}) {
         const ReceiverSampling sampling{0x1234u, 0x98765432u, normal};
-        kernels_.sampleDirections(pattern, sampling, rays);
+        sample(pattern, sampling, rays);
         for (std::uint32_t i = 0; i < kSampleCount; ++i) {
             const SquareBits point = sobolPoint(i);
-            const Vec3f expected =
-                sampleCosineHemisphere(unitFloatFromBits(owenScramble(point.x, sampling.seedX)),
+            const Vec3f expected = map(unitFloatFromBits(owenScramble(point.x, sampling.seedX)),
                                        unitFloatFromBits(owenScramble(point.y, sampling.seedY)));
             const Vec3f direction(rays.directionX[i], rays.directionY[i], rays.directionZ[i]);
             EXPECT_NEAR(direction.length(), 1.0f, kDirectionTolerance);
@@ -48,6 +42,22 @@ TEST_P(GatherKernelsTest, DirectionsAreTheScrambledPointsAboutTheNormal) {
             }
         }
     }
+}
+
+class GatherKernelsTest : public testing::TestWithParam<Isa> {
+  protected:
+    void SetUp() override {
+        if (GetParam() > detectIsa()) GTEST_SKIP() << "this machine lacks the instruction set";
+    }
+    const GatherKernels kernels_ = selectGatherKernels(GetParam());
+};
+
+TEST_P(GatherKernelsTest, DirectionsAreTheScrambledPointsAboutTheNormal) {
+    expectScrambledPoints(kernels_.sampleDirections, sampleCosineHemisphere);
+}
+
+TEST_P(GatherKernelsTest, UniformDirectionsAreTheScrambledPointsAboutTheNormal) {
+    expectScrambledPoints(kernels_.sampleUniformDirections, sampleUniformHemisphere);
 }
 
 TEST_P(GatherKernelsTest, SumsTheBasisOverVisibleDirections) {
