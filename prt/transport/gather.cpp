@@ -5,32 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <string>
 
 #include "prt/base/error.h"
 #include "prt/base/random.h"
 #include "prt/basis/sh.h"
 #include "prt/scene/surface_color.h"
+#include "prt/transport/stopwatch.h"
 
 namespace prt {
 namespace {
 
 constexpr std::uint32_t kEmptySlot = 0xffffffffu;
-
-/// Adds the time since its making to a sum of seconds.
-class Stopwatch {
-  public:
-    explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(Clock::now()) {}
-    ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    double& seconds_;
-    Clock::time_point begin_;
-};
 
 /// Three entries a hit at most, in a table at most half full.
 std::size_t slotCountFor(std::size_t hitCount) {
