@@ -17,6 +17,11 @@ struct Frame {
     Imath::Vec3<Real> worldFromLocal(const Imath::Vec3<Real>& local) const {
         return tangent * local.x + bitangent * local.y + normal * local.z;
     }
+
+    /// And back.
+    Imath::Vec3<Real> localFromWorld(const Imath::Vec3<Real>& world) const {
+        return {world.dot(tangent), world.dot(bitangent), world.dot(normal)};
+    }
 };
 
 /// Completes a unit normal to a frame, without branches and continuous but at normal.z = 0

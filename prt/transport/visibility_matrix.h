@@ -28,6 +28,8 @@ class VisibilityMatrix {
     /// @param bandCount          n ≥ 1, of the light; n_in + n − 1 ≤ kMaxBandCount
     VisibilityMatrix(int incidentBandCount, int bandCount);
 
+    int incidentBandCount() const { return incidentBandCount_; }
+    int bandCount() const { return bandCount_; }
     int visibilityBandCount() const { return incidentBandCount_ + bandCount_ - 1; }
     /// n_in² n².
     std::size_t elementCount() const { return terms_.size(); }

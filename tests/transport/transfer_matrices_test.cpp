@@ -6,12 +6,9 @@
 #include <numbers>
 
 #include "prt/base/error.h"
-#include "prt/base/random.h"
-#include "prt/basis/zonal.h"
-#include "prt/math/quadrature.h"
-#include "prt/transport/bake.h"
 #include "tests/support/scenes.h"
 #include "tests/support/transfer_matrix_checks.h"
+#include "tests/transport/uniform_rays.h"
 
 namespace prt {
 namespace {
@@ -22,6 +19,7 @@ using test::intoLocalFrame;
 using test::makePatch;
 using test::makeQuad;
 using test::makeRoomScene;
+using test::matrixOfVertex;
 using test::transformScene;
 
 // Products of two functions of up to √(9/4π), over visibility edges that 4096 scrambled net points
@@ -31,12 +29,6 @@ constexpr double kQmcTolerance = 2e-2;
 constexpr double kSmoothTolerance = 2e-3;
 // Sums of a thousand numbers of about 1, in float.
 constexpr double kFloatTolerance = 2e-5;
-
-std::vector<float> matrixOfVertex(const TransferMatrices& baked, std::size_t vertex) {
-    std::vector<float> matrix(baked.matrices.columnCount());
-    baked.matrices.readRow(baked.receiverOfVertex[vertex], std::span(matrix));
-    return matrix;
-}
 
 TEST(TransferMatrices, OfAnOpenPlaneIntegrateOverTheHemisphere) {
     const Vec3f normal(0.6f, -0.64f, 0.48f);
@@ -54,78 +46,24 @@ TEST(TransferMatrices, AreTheSumsOverTheirRays) {
     const Scene scene = makeRoomScene();
     const RayScene rays(scene);
     const Receivers receivers = placeReceivers(scene, rays);
-    const GatherKernels kernels = selectGatherKernels(detectIsa());
-    const SamplePattern pattern(1024);
     for (const BandCounts& bands : {BandCounts{5, 5}, BandCounts{3, 6}}) {
         const TransferMatrices baked = bakeTransferMatrices(
             scene, {.incidentBandCount = bands.incident, .bandCount = bands.light, .seed = 3});
         ASSERT_EQ(baked.matrices.rowCount(), receivers.fronts.size());
         for (std::size_t receiver = 0; receiver < receivers.fronts.size(); receiver += 23) {
             const Receiver& site = receivers.fronts[receiver];
-            RandomStream random(3, site.randomStream);
-            const std::uint32_t seedX = random.nextBits();
-            RayStream stream(1024);
-            kernels.sampleUniformDirections(pattern, {seedX, random.nextBits(), site.normal},
-                                            stream);
-            stream.restart(site.origin);
-            rays.findOccluded(stream);
+            const RayStream stream = test::traceUniformRays(rays, site, 3);
             std::vector<SphereNode> visible;
             for (std::size_t i = 0; i < stream.size(); ++i)
                 if (stream.tFar[i] > 0.0f)
-                    visible.push_back({Vec3d(Vec3f(stream.directionX[i], stream.directionY[i],
-                                                   stream.directionZ[i])),
-                                       2.0 * std::numbers::pi / 1024.0});
+                    visible.push_back(
+                        {Vec3d(test::directionOf(stream, i)), 2.0 * std::numbers::pi / 1024.0});
             const std::vector<double> expected = test::sumMatrix(visible, bands, site.normal);
             std::vector<float> matrix(expected.size());
             baked.matrices.readRow(receiver, std::span(matrix));
             for (std::size_t e = 0; e < expected.size(); ++e)
                 ASSERT_NEAR(matrix[e], expected[e], kFloatTolerance)
                     << "receiver " << receiver << ", element " << e;
-        }
-    }
-}
-
-/// The L2 norm over the hemisphere of what bands lose of cos θ / π.
-double lostCosine(const std::vector<double>& lobe) {
-    double square = 0.0;
-    std::vector<double> basis(lobe.size() * lobe.size());
-    for (const QuadratureNode& node : gaussLegendre(32)) {
-        const double z = 0.5 * (node.position + 1.0);
-        evaluateSh(Vec3d(std::sqrt(1.0 - z * z), 0.0, z), static_cast<int>(lobe.size()), basis);
-        double rest = z * std::numbers::inv_pi;
-        for (std::size_t l = 0; l < lobe.size(); ++l)
-            rest -= lobe[l] * basis[l * (l + 1)];
-        square += std::numbers::pi * node.weight * rest * rest;
-    }
-    return std::sqrt(square);
-}
-
-TEST(TransferMatrices, SeenByTheCosineAreTheDiffuseTransfer) {
-    const Scene scene = makeRoomScene();
-    constexpr BandCounts kBands = {7, 4};
-    const TransferMatrices baked =
-        bakeTransferMatrices(scene, {.incidentBandCount = 7, .bandCount = 4, .sampleCount = 4096});
-    const TransferField field = bakeTransfer(
-        scene, {.transport = Transport::shadowed, .bandCount = 4, .sampleCount = 4096});
-    ASSERT_EQ(field.receiverOfVertex, baked.receiverOfVertex);
-
-    std::vector<double> lobe = clampedCosineZonal(kBands.incident);
-    for (double& coefficient : lobe)
-        coefficient *= std::numbers::inv_pi;
-    // By Cauchy and Schwarz, a coefficient differs by no more than what is lost, times ‖y_j‖ over
-    // the hemisphere: √½, for y_j² is the same on both.
-    const double tolerance = lostCosine(lobe) * std::sqrt(0.5) + 4e-3;
-    EXPECT_LT(tolerance, 0.015);
-    for (std::size_t vertex = 0; vertex < baked.receiverOfVertex.size(); vertex += 5) {
-        const std::vector<float> matrix = matrixOfVertex(baked, vertex);
-        const std::vector<float> transfer =
-            transferVector(field, field.layers[0], field.receiverOfVertex[vertex], 0);
-        for (std::size_t j = 0; j < kBands.columnCount(); ++j) {
-            double sum = 0.0;
-            for (std::size_t l = 0; l < lobe.size(); ++l)
-                sum +=
-                    lobe[l] * static_cast<double>(matrix[l * (l + 1) * kBands.columnCount() + j]);
-            EXPECT_NEAR(sum, transfer[j], tolerance) << "vertex " << vertex << ", column " << j;
         }
     }
 }

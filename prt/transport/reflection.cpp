@@ -1,0 +1,21 @@
+// Bibliography
+//   [Kautz02]  BRDFs as spherical harmonics over incident directions
+#include "prt/transport/reflection.h"
+
+#include "prt/base/assert.h"
+#include "prt/basis/sh.h"
+
+namespace prt {
+
+Reflection lambertReflection(const Scene& scene) {
+    return [&scene](const SurfacePoint& point, const Vec3f&, std::span<float> response) {
+        const std::size_t coefficientCount = response.size() / 3;
+        PRT_ASSERT(coefficientCount >= 4, "the cosine has two bands");
+        const Vec3f albedo = evaluateAlbedo(scene, point);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            response[channel * coefficientCount + shIndex(1, 0)] +=
+                kLambertResponse * albedo[static_cast<int>(channel)];
+    };
+}
+
+}  // namespace prt

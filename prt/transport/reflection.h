@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "prt/math/vector.h"
+#include "prt/scene/scene.h"
+#include "prt/scene/surface_color.h"
+
+namespace prt {
+
+/// How the surfaces of a scene reflect: what coefficients l_i of incident radiance in the local
+/// frame send towards ω_o is Σ_i f_i(ω_o) l_i, with
+///
+///   f_i(ω_o) = ∫ f_r(ω_i, ω_o) max(cos θ_i, 0) y_i(ω_i) dω_i                          [Kautz02]
+///
+/// As nothing comes in from below the horizon, f_i may be of any function that is right above it.
+/// Called by many threads at once.
+///
+/// @param point     whose material it is
+/// @param view      ω_o, unit, local frame; a little below the horizon where shading normals lean
+/// @param response  [channel][i], zeros: f_i is added
+using Reflection =
+    std::function<void(const SurfacePoint& point, const Vec3f& view, std::span<float> response)>;
+
+/// Albedo/π of the base colour. Above the horizon the cosine is one coefficient, cos θ =
+/// √(4π/3) y_10, so that two bands of incident radiance hold a Lambert surface exactly.
+///
+/// @param scene  must outlive it; textures decoded
+Reflection lambertReflection(const Scene& scene);
+
+/// f_10 of albedo 1: row (1, 0) of a transfer matrix times this is the diffuse transfer vector
+/// (C6).
+inline constexpr float kLambertResponse = 0.65147001587055990f;  // sqrt(4 / (3 pi))
+
+}  // namespace prt
