@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "prt/brdf/lobe_quadrature.h"
+
+namespace prt {
+
+struct GltfViewTableOptions {
+    int bandCount = 5;    ///< n of incident radiance
+    int levelCount = 32;  ///< of roughness from 0 to 1, at least 2
+    int viewCount = 32;   ///< of cos θ_o from 0 to 1, at least 2
+    LobeQuadratureOptions quadrature = {};
+};
+
+/// What any glTF material (makeGltfBrdf) makes of incident radiance for one view, f_i(ω_o) of
+/// projectBrdfView, from a table of roughness and cos θ_o, linear between. Turned to azimuth 0 a
+/// view has only coefficients of m ≥ 0, and Schlick's F is linear in F0: two tables serve all
+/// materials, and one their diffuse lobes.
+class GltfViewTable {
+  public:
+    explicit GltfViewTable(const GltfViewTableOptions& options = {});
+
+    int bandCount() const { return bandCount_; }
+
+    /// @param baseColor  linear, in [0, 1]
+    /// @param view       ω_o, unit, local frame; below the horizon it counts as at it
+    /// @param response   [channel][i]: f_i is added
+    void addResponse(const Vec3f& baseColor, const MetallicRoughness& surface, const Vec3f& view,
+                     std::span<float> response) const;
+
+  private:
+    /// A coefficient (l, m ≥ 0) of GGX with F0 = 0 and F0 = 1, and of a layered Lambert lobe of
+    /// albedo 1.
+    struct Element {
+        float dark = 0.0f;
+        float bright = 0.0f;
+        float diffuse = 0.0f;
+    };
+
+    const Element* elementsAt(std::size_t level, std::size_t view) const;
+
+    int bandCount_;
+    std::size_t levelCount_;
+    std::size_t viewCount_;
+    std::size_t elementCount_;       // n(n + 1)/2
+    std::vector<Element> elements_;  // [level][view][l(l + 1)/2 + m]
+};
+
+}  // namespace prt
