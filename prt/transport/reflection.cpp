@@ -2,6 +2,8 @@
 //   [Kautz02]  BRDFs as spherical harmonics over incident directions
 #include "prt/transport/reflection.h"
 
+#include <utility>
+
 #include "prt/base/assert.h"
 #include "prt/basis/sh.h"
 
@@ -15,6 +17,14 @@ Reflection lambertReflection(const Scene& scene) {
         for (std::size_t channel = 0; channel < 3; ++channel)
             response[channel * coefficientCount + shIndex(1, 0)] +=
                 kLambertResponse * albedo[static_cast<int>(channel)];
+    };
+}
+
+Reflection gltfReflection(const Scene& scene, std::shared_ptr<const GltfViewTable> table) {
+    return [&scene, table = std::move(table)](const SurfacePoint& point, const Vec3f& view,
+                                              std::span<float> response) {
+        table->addResponse(evaluateAlbedo(scene, point), evaluateMetallicRoughness(scene, point),
+                           view, response);
     };
 }
 

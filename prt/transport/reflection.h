@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 
+#include "prt/brdf/gltf_view_table.h"
 #include "prt/math/vector.h"
 #include "prt/scene/scene.h"
 #include "prt/scene/surface_color.h"
@@ -28,6 +30,12 @@ using Reflection =
 ///
 /// @param scene  must outlive it; textures decoded
 Reflection lambertReflection(const Scene& scene);
+
+/// Diffuse and specular light of glTF materials with their textures.
+///
+/// @param scene  must outlive it; textures decoded
+/// @param table  for the bands of the incident radiance
+Reflection gltfReflection(const Scene& scene, std::shared_ptr<const GltfViewTable> table);
 
 /// f_10 of albedo 1: row (1, 0) of a transfer matrix times this is the diffuse transfer vector
 /// (C6).

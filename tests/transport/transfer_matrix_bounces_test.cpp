@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
 
 #include "prt/base/error.h"
 #include "prt/basis/zonal.h"
+#include "prt/brdf/brdf_matrix.h"
 #include "prt/transport/bake.h"
 #include "prt/transport/transfer_matrices.h"
 #include "tests/support/scenes.h"
@@ -195,6 +198,73 @@ TEST(TransferMatrixBounces, OfABowlHaveItsClosedFormFromEveryDirection) {  // A9
             }
         }
         EXPECT_LT(largest, kBowlTolerance) << options.bounceCount << " bounces";
+    }
+}
+
+// The materials and views here stand in it, so that nothing is interpolated.
+constexpr GltfViewTableOptions kMaterialTable{
+    .bandCount = 3,
+    .levelCount = 11,
+    .viewCount = 6,
+    .quadrature = {.polarNodeCount = 32, .azimuthNodeCount = 16}};
+
+TEST(TransferMatrixBounces, FollowGltfMaterials) {
+    Scene scene = makeRoomScene();
+    scene.materials[1].metallicFactor = 1.0f;
+    scene.materials[1].roughnessFactor = 0.4f;
+    scene.materials[2].metallicFactor = 0.0f;
+    scene.materials[2].roughnessFactor = 0.7f;
+    const Reflection reflection =
+        gltfReflection(scene, std::make_shared<GltfViewTable>(kMaterialTable));
+    const Vec3d view(0.48, -0.64, 0.6);
+    for (std::size_t mesh = 1; mesh <= 2; ++mesh) {
+        std::vector<float> response(3 * 9);
+        reflection({mesh, 0, 0.25f, 0.25f}, Vec3f(view), response);
+        const Material& material = scene.materials[mesh];
+        const auto expected =
+            projectBrdfView(makeGltfBrdf(evaluateAlbedo(scene, {mesh, 0, 0.25f, 0.25f}),
+                                         {material.metallicFactor, material.roughnessFactor}),
+                            view, 3, kMaterialTable.quadrature);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (std::size_t i = 0; i < 9; ++i)
+                EXPECT_NEAR(response[9 * channel + i], expected[channel][i], kFloatTolerance)
+                    << "mesh " << mesh << ", coefficient " << i;
+    }
+}
+
+/// E/π at the vertices of a mesh in a white sky, largest over the mesh.
+double largestIrradiance(const Scene& scene, const TransferMatrixOptions& options) {
+    const TransferMatrices baked = bakeTransferMatrices(scene, options);
+    const auto rowCount = static_cast<std::size_t>(shCoefficientCount(baked.incidentBandCount));
+    double largest = 0.0;
+    for (std::size_t vertex = 0; vertex < baked.receiverOfVertex.size(); ++vertex) {
+        const std::vector<float> matrix = matrixOfVertex(baked, vertex);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            largest = std::max(largest, std::sqrt(4.0 * std::numbers::pi) *
+                                            static_cast<double>(kLambertResponse *
+                                                                matrix[channel * rowCount + 2]));
+    }
+    return largest;
+}
+
+TEST(TransferMatrixBounces, OfWhiteMetalAddNoLight) {
+    // Five bands hold a lobe of roughness ½ to some hundredths.
+    constexpr double kBandLimit = 0.03;
+    Scene scene = test::assembleScene({{makeBowl(0.4f, 12), Vec3f(1.0f, 1.0f, 1.0f)}});
+    scene.materials[0].metallicFactor = 1.0f;
+    const auto table = std::make_shared<GltfViewTable>(GltfViewTableOptions{
+        .levelCount = 3, .viewCount = 16, .quadrature = kMaterialTable.quadrature});
+    for (const float roughness : {0.5f, 1.0f}) {
+        scene.materials[0].roughnessFactor = roughness;
+        TransferMatrixOptions options{.bandCount = 1, .sampleCount = 256};
+        options.reflection = gltfReflection(scene, table);
+        double last = 0.3;  // its share of the sky
+        for (options.bounceCount = 1; options.bounceCount <= 8; options.bounceCount *= 2) {
+            const double largest = largestIrradiance(scene, options);
+            EXPECT_GT(largest, last) << "roughness " << roughness;
+            EXPECT_LT(largest, 1.0 + kBandLimit) << "roughness " << roughness;
+            last = largest;
+        }
     }
 }
 
