@@ -240,6 +240,50 @@ void multiplyRow(std::span<const BounceEntry> row, const BounceTransfer& transfe
         multiplyRowBlock<1>(row, transfer, first, result);
 }
 
+template <int kVectors>
+HWY_INLINE void addProductBlock(std::span<const float> factors, const float* rows,
+                                std::size_t columnCount, float* sums) {
+    const Lanes d;
+    const std::size_t lanes = hn::Lanes(d);
+    Vector partial[kVectors];
+    for (std::size_t k = 0; k < kVectors; ++k)
+        partial[k] = hn::LoadU(d, sums + k * lanes);
+    for (const float factor : factors) {
+        if (factor != 0.0f) {  // diffuse surfaces have one that is not
+            const Vector weight = hn::Set(d, factor);
+            for (std::size_t k = 0; k < kVectors; ++k)
+                partial[k] = hn::MulAdd(weight, hn::LoadU(d, rows + k * lanes), partial[k]);
+        }
+        rows += columnCount;
+    }
+    for (std::size_t k = 0; k < kVectors; ++k)
+        hn::StoreU(partial[k], d, sums + k * lanes);
+}
+
+void addProduct(std::span<const float> factors, const float* rows, std::size_t columnCount,
+                float* sums) {
+    const std::size_t lanes = hn::Lanes(Lanes());
+    const std::size_t end = padToLanes(columnCount);
+    std::size_t first = 0;
+    for (; first + 4 * lanes <= end; first += 4 * lanes)
+        addProductBlock<4>(factors, rows + first, columnCount, sums + first);
+    for (; first + 2 * lanes <= end; first += 2 * lanes)
+        addProductBlock<2>(factors, rows + first, columnCount, sums + first);
+    for (; first < end; first += lanes)
+        addProductBlock<1>(factors, rows + first, columnCount, sums + first);
+}
+
+void addOuterProduct(std::span<const float> factors, std::span<const float> addend, float* sums) {
+    const Lanes d;
+    for (const float factor : factors) {
+        const Vector weight = hn::Set(d, factor);
+        for (std::size_t j = 0; j < addend.size(); j += hn::Lanes(d))
+            hn::StoreU(hn::MulAdd(weight, hn::LoadU(d, addend.data() + j), hn::LoadU(d, sums + j)),
+                       d, sums + j);
+        sums += addend.size();
+    }
+}
+
 }  // namespace prt::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -250,6 +294,8 @@ HWY_EXPORT(sampleDirections);
 HWY_EXPORT(sampleUniformDirections);
 HWY_EXPORT(sumVisible);
 HWY_EXPORT(multiplyRow);
+HWY_EXPORT(addProduct);
+HWY_EXPORT(addOuterProduct);
 
 SamplePattern::SamplePattern(std::size_t sampleCount)
     : reversedX(sampleCount), reversedY(sampleCount) {
@@ -270,7 +316,10 @@ GatherKernels selectGatherKernels(Isa isa) {
     const std::size_t index = target.GetIndex();
     return {HWY_DISPATCH_TABLE(sampleDirections)[index],
             HWY_DISPATCH_TABLE(sampleUniformDirections)[index],
-            HWY_DISPATCH_TABLE(sumVisible)[index], HWY_DISPATCH_TABLE(multiplyRow)[index]};
+            HWY_DISPATCH_TABLE(sumVisible)[index],
+            HWY_DISPATCH_TABLE(multiplyRow)[index],
+            HWY_DISPATCH_TABLE(addProduct)[index],
+            HWY_DISPATCH_TABLE(addOuterProduct)[index]};
 }
 
 }  // namespace prt

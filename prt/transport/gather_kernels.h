@@ -70,6 +70,20 @@ struct GatherKernels {
     /// @param result  one number a column, aligned to 64 bytes, written
     void (*multiplyRow)(std::span<const BounceEntry> row, const BounceTransfer& transfer,
                         float* result);
+
+    /// sums_j += Σ_i factors_i rows_ij.
+    ///
+    /// @param rows  [i][columnCount], of which padToLanes(columnCount) can be read from each row's
+    ///              beginning
+    /// @param sums  padToLanes(columnCount) numbers; those beyond the last column mean nothing
+    void (*addProduct)(std::span<const float> factors, const float* rows, std::size_t columnCount,
+                       float* sums);
+
+    /// sums_ij += factors_i addend_j.
+    ///
+    /// @param addend  a multiple of kLaneMultiple, as many as sums has columns
+    void (*addOuterProduct)(std::span<const float> factors, std::span<const float> addend,
+                            float* sums);
 };
 
 /// @param isa  at most detectIsa()

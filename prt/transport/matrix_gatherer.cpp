@@ -19,12 +19,6 @@ std::size_t countCoefficients(int bandCount) {
     return static_cast<std::size_t>(shCoefficientCount(bandCount));
 }
 
-/// sum += factor · addend.
-void addScaled(float factor, std::span<const float> addend, float* sum) {
-    for (std::size_t i = 0; i < addend.size(); ++i)
-        sum[i] += factor * addend[i];
-}
-
 }  // namespace
 
 MatrixGatherer::MatrixGatherer(const MatrixGatherScene& shared)
@@ -34,9 +28,11 @@ MatrixGatherer::MatrixGatherer(const MatrixGatherScene& shared)
       rays_(shared.pattern.reversedX.size()),
       visibility_(countCoefficients(shared.visibilityMatrix.visibilityBandCount())),
       scratch_(shared.visibilityMatrix.elementCount()),
+      stride_(padToLanes(columnCount_)),
       response_(kChannelCount * rowCount_),
-      radiance_(kChannelCount * columnCount_),
-      basis_(rowCount_) {
+      radiance_(kChannelCount * stride_),
+      basis_(rowCount_),
+      reflected_(kChannelCount * rowCount_ * stride_) {
     firstTriangle_.push_back(0);
     for (const Mesh& mesh : shared.scene.scene.meshes)
         firstTriangle_.push_back(firstTriangle_.back() + mesh.triangleCount());
@@ -66,36 +62,41 @@ void MatrixGatherer::gatherVisible(std::uint32_t receiver, std::span<float> matr
     shared_.visibilityMatrix.make(visibility_, site.normal, scratch_, matrix);
 }
 
+/// Looks for the surfaces along blocked rays.
+void MatrixGatherer::findHits() {
+    const Stopwatch watch(counts_.traceSeconds);
+    blockedRays_.clear();
+    for (std::uint32_t i = 0; i < rays_.size(); ++i)
+        if (rays_.tFar[i] < 0.0f) blockedRays_.push_back(i);
+    hits_.resize(blockedRays_.size());
+    shared_.scene.rays.findClosest(rays_, blockedRays_, hits_);
+    counts_.hitCount += hits_.size();
+}
+
 void MatrixGatherer::addReflected(std::uint32_t receiver, std::span<const float> sources,
                                   std::span<float> matrix) {
     PRT_ASSERT(matrix.size() == kChannelCount * rowCount_ * columnCount_, "one matrix a channel");
+    findHits();
+    const Stopwatch watch(counts_.accumulateSeconds);
     const Frame<float> frame =
         frameFromNormal(receiverSite(shared_.scene.receivers, receiver).normal);
-    {
-        const Stopwatch watch(counts_.traceSeconds);
-        blockedRays_.clear();
-        for (std::uint32_t i = 0; i < rays_.size(); ++i)
-            if (rays_.tFar[i] < 0.0f) blockedRays_.push_back(i);
-        hits_.resize(blockedRays_.size());
-        shared_.scene.rays.findClosest(rays_, blockedRays_, hits_);
-        counts_.hitCount += hits_.size();
-    }
-    const Stopwatch watch(counts_.accumulateSeconds);
-    const float weight = 2.0f * std::numbers::pi_v<float> / static_cast<float>(rays_.size());
+    const std::size_t channelSize = rowCount_ * stride_;
+    std::fill(reflected_.begin(), reflected_.end(), 0.0f);
     for (std::size_t h = 0; h < hits_.size(); ++h) {
         const std::uint32_t ray = blockedRays_[h];
         const Vec3f direction(rays_.directionX[ray], rays_.directionY[ray], rays_.directionZ[ray]);
         if (!findRadiance(hits_[h], direction, sources)) continue;
         evaluateSh(frame.localFromWorld(direction), shared_.visibilityMatrix.incidentBandCount(),
                    basis_);
-        for (std::size_t channel = 0; channel < kChannelCount; ++channel) {
-            const auto radiance =
-                std::span(radiance_).subspan(channel * columnCount_, columnCount_);
-            for (std::size_t i = 0; i < rowCount_; ++i)
-                addScaled(weight * basis_[i], radiance,
-                          matrix.data() + (channel * rowCount_ + i) * columnCount_);
-        }
+        for (std::size_t channel = 0; channel < kChannelCount; ++channel)
+            shared_.kernels.addOuterProduct(
+                basis_, std::span(radiance_).subspan(channel * stride_, stride_),
+                reflected_.data() + channel * channelSize);
     }
+    const float weight = 2.0f * std::numbers::pi_v<float> / static_cast<float>(rays_.size());
+    for (std::size_t row = 0; row < kChannelCount * rowCount_; ++row)
+        for (std::size_t j = 0; j < columnCount_; ++j)
+            matrix[row * columnCount_ + j] += weight * reflected_[row * stride_ + j];
 }
 
 /// Writes what a surface sends back along a ray, interpolated between its corners, each of which
@@ -120,12 +121,13 @@ bool MatrixGatherer::findRadiance(const Hit& hit, const Vec3f& direction,
         const Frame<float> frame = frameFromNormal(receiverSite(scene.receivers, corner).normal);
         std::fill(response_.begin(), response_.end(), 0.0f);
         shared_.reflection(hit.point, frame.localFromWorld(-direction), response_);
-        // Rows of all channels and coefficients lie one after the other, as responses do.
-        const float* row = sources.data() + corner * response_.size() * columnCount_;
-        for (std::size_t i = 0; i < response_.size(); ++i, row += columnCount_)
-            if (response_[i] != 0.0f)
-                addScaled(weights[k] * response_[i], std::span(row, columnCount_),
-                          radiance_.data() + i / rowCount_ * columnCount_);
+        for (float& coefficient : response_)
+            coefficient *= weights[k];
+        for (std::size_t channel = 0; channel < kChannelCount; ++channel)
+            shared_.kernels.addProduct(
+                std::span(response_).subspan(channel * rowCount_, rowCount_),
+                sources.data() + (corner * kChannelCount + channel) * rowCount_ * columnCount_,
+                columnCount_, radiance_.data() + channel * stride_);
     }
     return true;
 }

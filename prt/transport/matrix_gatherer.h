@@ -39,15 +39,17 @@ class MatrixGatherer {
 
     /// The light that surfaces send on along the same rays, added.
     ///
-    /// @param sources  [receiver][channel][i][j], what comes in at surfaces: fronts, then backs if
-    ///                 there are any
-    /// @param matrix   [channel][i][j]
+    /// @param receiver  that gatherVisible was called for last
+    /// @param sources   [receiver][channel][i][j], what comes in at surfaces: fronts, then backs if
+    ///                  there are any; and kLaneMultiple numbers that mean nothing
+    /// @param matrix    [channel][i][j]
     void addReflected(std::uint32_t receiver, std::span<const float> sources,
                       std::span<float> matrix);
 
     const GatherCounts& counts() const { return counts_; }
 
   private:
+    void findHits();
     bool findRadiance(const Hit& hit, const Vec3f& direction, std::span<const float> sources);
 
     const MatrixGatherScene& shared_;
@@ -59,9 +61,12 @@ class MatrixGatherer {
     std::vector<float> scratch_;
     std::vector<std::uint32_t> blockedRays_;
     std::vector<Hit> hits_;
-    std::vector<float> response_;  // [channel][i] of a surface, towards the receiver
-    std::vector<float> radiance_;  // [channel][j] that it sends there
-    std::vector<float> basis_;     // y_i at the receiver
+    // Rows of light coefficients are padded here: stride_ apart.
+    std::size_t stride_;
+    std::vector<float> response_;   // [channel][i] of a surface, towards the receiver
+    std::vector<float> radiance_;   // [channel][j] that it sends there
+    std::vector<float> basis_;      // y_i at the receiver
+    std::vector<float> reflected_;  // [channel][i][j] of all rays
     GatherCounts counts_;
 };
 

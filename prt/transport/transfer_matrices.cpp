@@ -92,7 +92,7 @@ class MatrixPasses {
         const Receivers& receivers = shared_.scene.receivers;
         const std::size_t frontCount = receivers.fronts.size();
         const std::size_t length = 3 * elementCount_;
-        std::vector<float> matrices((frontCount + receivers.backs.size()) * length);
+        std::vector<float> matrices((frontCount + receivers.backs.size()) * length + kLaneMultiple);
         forReceivers(frontCount + receivers.backs.size(), [&](MatrixGatherer& gatherer,
                                                               std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)

@@ -113,6 +113,39 @@ TEST_P(GatherKernelsTest, MultipliesARowOfTheBounceMatrix) {
     }
 }
 
+TEST_P(GatherKernelsTest, AddsProductsOfMatrices) {
+    RandomStream random(5, 0);
+    for (const std::size_t columnCount : {1u, 9u, 16u, 25u, 81u, 100u}) {
+        constexpr std::size_t kRowCount = 7;
+        const std::size_t stride = padToLanes(columnCount);
+        const auto draw = [&](std::size_t count) {
+            std::vector<float> numbers(count);
+            for (float& number : numbers)
+                number = random.nextUnitFloat();
+            return numbers;
+        };
+        const std::vector<float> rows = draw(kRowCount * columnCount + kLaneMultiple);
+        std::vector<float> factors = draw(kRowCount);
+        factors[3] = 0.0f;
+        const std::vector<float> before = draw(stride);
+        std::vector<float> sums = before;
+        kernels_.addProduct(factors, rows.data(), columnCount, sums.data());
+        for (std::size_t j = 0; j < columnCount; ++j) {
+            float expected = before[j];
+            for (std::size_t i = 0; i < kRowCount; ++i)
+                expected += factors[i] * rows[i * columnCount + j];
+            EXPECT_NEAR(sums[j], expected, 2e-6f) << "column " << j << " of " << columnCount;
+        }
+
+        const std::vector<float> matrixBefore = draw(kRowCount * stride);
+        std::vector<float> matrix = matrixBefore;
+        kernels_.addOuterProduct(factors, before, matrix.data());
+        for (std::size_t e = 0; e < matrix.size(); ++e)
+            EXPECT_NEAR(matrix[e], matrixBefore[e] + factors[e / stride] * before[e % stride],
+                        1e-6f);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(AllInstructionSets, GatherKernelsTest,
                          testing::Values(Isa::sse4, Isa::avx2, Isa::avx512),
                          [](const auto& parameter) {
