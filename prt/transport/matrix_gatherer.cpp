@@ -30,6 +30,7 @@ MatrixGatherer::MatrixGatherer(const MatrixGatherScene& shared)
       scratch_(shared.visibilityMatrix.elementCount()),
       stride_(padToLanes(columnCount_)),
       response_(kChannelCount * rowCount_),
+      cornerResponse_(kChannelCount * rowCount_),
       radiance_(kChannelCount * stride_),
       basis_(rowCount_),
       reflected_(kChannelCount * rowCount_ * stride_) {
@@ -115,17 +116,22 @@ bool MatrixGatherer::findRadiance(const Hit& hit, const Vec3f& direction,
                                           hit.point.v};
     const std::array<std::uint32_t, 3>& fronts =
         scene.receivers.frontsOfTriangle[firstTriangle_[hit.point.mesh] + hit.point.triangle];
+    Vec3f lastNormal(0.0f, 0.0f, 0.0f);
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t corner =
             hit.backFace ? backReceiver(scene.receivers, fronts[k]) : fronts[k];
-        const Frame<float> frame = frameFromNormal(receiverSite(scene.receivers, corner).normal);
-        std::fill(response_.begin(), response_.end(), 0.0f);
-        shared_.reflection(hit.point, frame.localFromWorld(-direction), response_);
-        for (float& coefficient : response_)
-            coefficient *= weights[k];
+        const Vec3f& normal = receiverSite(scene.receivers, corner).normal;
+        if (k == 0 || normal != lastNormal) {
+            std::fill(response_.begin(), response_.end(), 0.0f);
+            shared_.reflection(hit.point, frameFromNormal(normal).localFromWorld(-direction),
+                               response_);
+        }
+        lastNormal = normal;
+        std::transform(response_.begin(), response_.end(), cornerResponse_.begin(),
+                       [&](float coefficient) { return weights[k] * coefficient; });
         for (std::size_t channel = 0; channel < kChannelCount; ++channel)
             shared_.kernels.addProduct(
-                std::span(response_).subspan(channel * rowCount_, rowCount_),
+                std::span(cornerResponse_).subspan(channel * rowCount_, rowCount_),
                 sources.data() + (corner * kChannelCount + channel) * rowCount_ * columnCount_,
                 columnCount_, radiance_.data() + channel * stride_);
     }

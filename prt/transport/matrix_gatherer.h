@@ -63,10 +63,11 @@ class MatrixGatherer {
     std::vector<Hit> hits_;
     // Rows of light coefficients are padded here: stride_ apart.
     std::size_t stride_;
-    std::vector<float> response_;   // [channel][i] of a surface, towards the receiver
-    std::vector<float> radiance_;   // [channel][j] that it sends there
-    std::vector<float> basis_;      // y_i at the receiver
-    std::vector<float> reflected_;  // [channel][i][j] of all rays
+    std::vector<float> response_;        // [channel][i] of a surface, towards the receiver
+    std::vector<float> cornerResponse_;  // times the weight of a corner
+    std::vector<float> radiance_;        // [channel][j] that it sends there
+    std::vector<float> basis_;           // y_i at the receiver
+    std::vector<float> reflected_;       // [channel][i][j] of all rays
     GatherCounts counts_;
 };
 
