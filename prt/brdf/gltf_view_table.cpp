@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "prt/base/assert.h"
 #include "prt/basis/sh.h"
@@ -27,9 +28,17 @@ Between locate(float x, std::size_t count) {
     return {first, position - static_cast<float>(first)};
 }
 
+/// Where a view stands among those of the table, from 0 along the normal to 1 at the horizon: even
+/// in the angle at first, where coefficients go with its sine, and ever finer towards the horizon.
+float viewPosition(float cosine) {
+    const float angle = std::acos(std::clamp(cosine, 0.0f, 1.0f));
+    return 1.0f - std::sqrt(std::max(0.0f, 1.0f - angle * (2.0f * std::numbers::inv_pi_v<float>)));
+}
+
+/// The other way.
 Vec3d tableView(std::size_t index, std::size_t count) {
-    const double z =
-        std::max(kLowestView, static_cast<double>(index) / static_cast<double>(count - 1));
+    const double rest = 1.0 - static_cast<double>(index) / static_cast<double>(count - 1);
+    const double z = std::max(kLowestView, std::sin(0.5 * std::numbers::pi * rest * rest));
     return {std::sqrt(1.0 - z * z), 0.0, z};
 }
 
@@ -72,7 +81,7 @@ void GltfViewTable::addResponse(const Vec3f& baseColor, const MetallicRoughness&
     const auto coefficientCount = static_cast<std::size_t>(shCoefficientCount(bandCount_));
     PRT_ASSERT(response.size() == 3 * coefficientCount, "n² numbers a channel");
     const Between level = locate(std::clamp(surface.roughness, 0.0f, 1.0f), levelCount_);
-    const Between angle = locate(std::clamp(view.z, 0.0f, 1.0f), viewCount_);
+    const Between angle = locate(viewPosition(view.z), viewCount_);
     const std::array<const Element*, 4> corners = {
         elementsAt(level.first, angle.first), elementsAt(level.first, angle.first + 1),
         elementsAt(level.first + 1, angle.first), elementsAt(level.first + 1, angle.first + 1)};

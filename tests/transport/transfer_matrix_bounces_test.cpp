@@ -216,7 +216,8 @@ TEST(TransferMatrixBounces, FollowGltfMaterials) {
     scene.materials[2].roughnessFactor = 0.7f;
     const Reflection reflection =
         gltfReflection(scene, std::make_shared<GltfViewTable>(kMaterialTable));
-    const Vec3d view(0.48, -0.64, 0.6);
+    const double angle = 0.5 * std::numbers::pi * (1.0 - 0.4 * 0.4);  // three steps of five
+    const Vec3d view(0.6 * std::sin(angle), -0.8 * std::sin(angle), std::cos(angle));
     for (std::size_t mesh = 1; mesh <= 2; ++mesh) {
         std::vector<float> response(3 * 9);
         reflection({mesh, 0, 0.25f, 0.25f}, Vec3f(view), response);
