@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <new>
 #include <string>
 
 #include "prt/base/error.h"
@@ -116,10 +117,15 @@ class MatrixPasses {
 
     template <class Work>
     void forReceivers(std::size_t count, Work work) {
+        const std::string stage =
+            passCount_ == 0 ? "trace" : "bounce " + std::to_string(passCount_);
+        ++passCount_;
+        ProgressReporter reporter(options_.progress, stage, "receivers", count);
         parallelFor(count, {options_.threadCount, kReceiversPerTask},
                     [&](std::size_t begin, std::size_t end) {
                         MatrixGatherer gatherer(shared_);
                         work(gatherer, begin, end);
+                        reporter.advance(end - begin);
                         const std::lock_guard lock(counting_);
                         counts_ += gatherer.counts();
                     });
@@ -129,6 +135,7 @@ class MatrixPasses {
     const TransferMatrixOptions& options_;
     std::size_t elementCount_;
     std::vector<bool> backIsSeen_;
+    int passCount_ = 0;
     std::mutex counting_;
     GatherCounts counts_;
 };
@@ -156,10 +163,15 @@ TransferMatrices bakeTransferMatrices(const Scene& scene, const TransferMatrixOp
                          static_cast<std::size_t>(channelCount) * visibilityMatrix.elementCount(),
                          sizeof(float), options.storage)};
     MatrixPasses passes(shared, options);
-    if (options.bounceCount > 0)
-        passes.gatherBounces(result.matrices);
-    else
-        passes.gatherVisible(result.matrices);
+    try {
+        if (options.bounceCount > 0)
+            passes.gatherBounces(result.matrices);
+        else
+            passes.gatherVisible(result.matrices);
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::outOfMemory, "the matrices need more memory than there is", {},
+                    "use fewer bands or a smaller scene");
+    }
     if (stats) *stats = {passes.counts(), receivers.fronts.size()};
     return result;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "prt/math/isa.h"
+#include "prt/parallel/progress.h"
 #include "prt/scene/scene.h"
 #include "prt/transfer/coefficient_table.h"
 #include "prt/transport/gather.h"
@@ -40,6 +41,7 @@ struct TransferMatrixOptions {
     int threadCount = 0;       ///< 0: one a core
     std::optional<Isa> isa{};  ///< pins the instruction set (C10); default: the widest
     TableStorage storage{};
+    ProgressCallback progress{};
 };
 
 /// Where the time of all threads went. Matrices are made within accumulateSeconds; traceSeconds is
@@ -53,11 +55,11 @@ struct TransferMatrixStats {
 ///
 /// Rays below the geometric surface are blocked, as for transfer vectors (C11). Rays are traced
 /// again for each bounce rather than kept: b bounces are M ← M⁽⁰⁾ + F(M), b times. A bounce holds
-/// the matrices of the one before in memory, 12 n_in² n² bytes a receiver.
+/// the matrices before and after it in memory, each 12 n_in² n² bytes a receiver.
 ///
 /// @param scene   as its reader promises; textures decoded
 /// @param stats   filled if given
-/// @throws Error  invalidOption, or writeFailed for the scratch folder
+/// @throws Error  invalidOption, cancelled, outOfMemory, or writeFailed for the scratch folder
 TransferMatrices bakeTransferMatrices(const Scene& scene, const TransferMatrixOptions& options = {},
                                       TransferMatrixStats* stats = nullptr);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "prt/base/error.h"
@@ -275,6 +276,25 @@ TEST(TransferMatrixBounces, AreTheSameForAnyNumberOfThreads) {  // C10
     const TransferMatrices one = bakeTransferMatrices(scene, options);
     options.threadCount = 3;
     EXPECT_TRUE(one.matrices == bakeTransferMatrices(scene, options).matrices);
+}
+
+TEST(TransferMatrixBounces, TellHowFarTheyAreAndCanBeCancelled) {
+    const Scene scene = makeRoomScene();
+    std::vector<std::string> stages;
+    TransferMatrixOptions options{.sampleCount = 16, .bounceCount = 2};
+    options.progress = [&](const Progress& progress) {
+        if (stages.empty() || stages.back() != progress.stage) stages.emplace_back(progress.stage);
+        return true;
+    };
+    bakeTransferMatrices(scene, options);
+    EXPECT_EQ(stages, (std::vector<std::string>{"trace", "bounce 1", "bounce 2"}));
+    options.progress = [](const Progress& progress) { return progress.stage != "bounce 1"; };
+    try {
+        bakeTransferMatrices(scene, options);
+        ADD_FAILURE() << "it was not cancelled";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::cancelled);
+    }
 }
 
 TEST(TransferMatrixBounces, NeedTwoBandsUnderLambertsLaw) {
