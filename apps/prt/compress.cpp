@@ -53,11 +53,10 @@ void keepLayer(CompressedTransfer& transfer, Transport transport, const std::str
 
 /// Compresses layer after layer, and keeps of each no more than is still needed.
 CompressedTransfer compressAsset(const CompressedTransfer& original,
-                                 const CompressArguments& arguments, CompressOptions options,
+                                 const CompressArguments& arguments, const CompressOptions& options,
                                  const std::vector<Vec3d>& light, StageLog& log) {
     CompressedTransfer compressed{
         original.bandCount, original.receiverCount, original.receiverOfVertex, {}};
-    if (options.clusters) options.clusters->light = light;
     for (const CompressedLayer& before : original.layers) {
         const TransferLayer layer = {
             before.transport, before.channelCount,
@@ -140,9 +139,11 @@ void runCompress(const CompressArguments& arguments) {
     log.finishStage("load", load.seconds(), arguments.asset);
 
     const Stopwatch compress;
+    if (options.clusters) options.clusters->light = light;
     options.threadCount = arguments.threadCount;
     options.progress = log.callback();
-    CompressedTransfer compressed = compressAsset(asset.transfer, arguments, options, light, log);
+    const CompressedTransfer compressed =
+        compressAsset(asset.transfer, arguments, options, light, log);
     log.finishStage("compress", compress.seconds(),
                     fmt::format("{}, {}", methodName(arguments.method),
                                 formatCount(asset.scene.vertexCount(), "vertex")));
