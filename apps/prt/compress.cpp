@@ -19,6 +19,7 @@
 #include "apps/prt/stage_log.h"
 #include "apps/prt/staged_folder.h"
 #include "apps/prt/text.h"
+#include "apps/prt/texture_output.h"
 #include "prt/asset/asset.h"
 #include "prt/base/error.h"
 #include "prt/compress/compress_transfer.h"
@@ -37,7 +38,8 @@ struct CompressArguments {
     int threadCount = 0;
     ReaderLimits limits;
     CompressReportArguments report;
-    std::string command;  ///< as it was given
+    std::string textures{};  ///< a folder; empty: none
+    std::string command;     ///< as it was given
 };
 
 constexpr const char* kReportLight = "daylight:60,40";
@@ -77,6 +79,17 @@ CompressedTransfer takeLayer(const CompressedTransfer& transfer, Transport trans
             {*transfer.findLayer(transport)}};
 }
 
+/// Fills a folder that appears whole or not at all, and tells where it is.
+template <class Fill>
+void writeFolder(const std::string& name, const std::string& firstFile, StageLog& log, Fill fill) {
+    const DeferInterrupts whileWriting;
+    StagedFolder folder(name);
+    fill(folder.path());
+    stopIfInterrupted();
+    folder.commit();
+    log.tell("see " + (std::filesystem::path(name) / firstFile).string());
+}
+
 /// Reports on the fullest of the layers.
 void makeReport(const CompressArguments& arguments, Asset original,
                 const CompressedTransfer& compressed, const CompressOptions& options,
@@ -93,20 +106,15 @@ void makeReport(const CompressArguments& arguments, Asset original,
     report.source = arguments.asset;
     report.command = arguments.command;
     report.lightName = asked.light;
-
-    const DeferInterrupts whileWriting;
-    StagedFolder folder(asked.folder);
-    writeCompressReport(folder.path(), report);
-    stopIfInterrupted();
-    folder.commit();
-    log.tell("report: " + (std::filesystem::path(asked.folder) / "index.html").string());
+    writeFolder(asked.folder, "index.html", log,
+                [&](const std::filesystem::path& folder) { writeCompressReport(folder, report); });
 }
 
 void checkOutputs(const CompressArguments& arguments) {
     checkAssetOutput(arguments.output, arguments.asset, "the asset it is made from");
-    if (arguments.report.folder.empty()) return;
     const DeferInterrupts whileProbing;
-    StagedFolder::check(arguments.report.folder);
+    for (const std::string& folder : {arguments.report.folder, arguments.textures})
+        if (!folder.empty()) StagedFolder::check(folder);
 }
 
 void writeCompressed(const CompressArguments& arguments, const Asset& asset,
@@ -137,6 +145,7 @@ void runCompress(const CompressArguments& arguments) {
     const std::vector<Vec3d> light =
         loadErrorLight(arguments.method, asset.transfer.bandCount, arguments.limits);
     log.finishStage("load", load.seconds(), arguments.asset);
+    if (!arguments.textures.empty()) checkFillsTextures(asset.transfer, arguments.asset);
 
     const Stopwatch compress;
     if (options.clusters) options.clusters->light = light;
@@ -151,6 +160,12 @@ void runCompress(const CompressArguments& arguments) {
     if (options.clusters) asset.provenance.command += fmt::format(" --seed {}", arguments.seed);
 
     writeCompressed(arguments, asset, compressed, log);
+    if (!arguments.textures.empty())
+        writeFolder(arguments.textures, "textures.json", log,
+                    [&](const std::filesystem::path& folder) {
+                        writeTransferTextures(
+                            folder, takeLayer(asset.transfer, fullestTransport(asset.transfer)));
+                    });
     if (!arguments.report.folder.empty())
         makeReport(arguments, std::move(asset), compressed, options, log);
 }
@@ -168,6 +183,11 @@ The errors that are told are those of reading the new asset back, against the as
 root mean square over all coefficients, as a part of the transfer's; and with --weigh-by that of the radiance
 under the light turned at random, as a part of the mean radiance.
 
+Of --textures, number s of a vertex's channel is bias + scale * q/255, q the byte s mod 4 of that channel's
+texture s div 4, neither sRGB nor premultiplied; vertex v, counted mesh after mesh, is texel (v mod width,
+v div width). Of 5 bands 24 coefficients are kept in six textures, and the mean of the 25th; textures.json
+has all that a reader needs.
+
 )";
 
 }  // namespace
@@ -184,9 +204,17 @@ void addCompressCommand(CLI::App& app) {
     addMethodOptions(*command, arguments->method);
     addParsedOption(*command, "--transport", arguments->transport, parseTransport,
                     "unshadowed|shadowed|interreflected", "keep this kind alone [all there are]");
-    command->add_flag("--meshopt", arguments->meshopt,
-                      "encode vertices and triangles too, without loss, and order them for\n"
-                      "that: for readers that know EXT_meshopt_compression");
+    CLI::Option* textures =
+        command
+            ->add_option("--textures", arguments->textures,
+                         "also write the fullest kind as PNGs, four coefficients each in 8 bits, a "
+                         "texel a vertex")
+            ->type_name("DIR");
+    command
+        ->add_flag("--meshopt", arguments->meshopt,
+                   "encode vertices and triangles too, without loss, and order them for\n"
+                   "that: for readers that know EXT_meshopt_compression")
+        ->excludes(textures);
     addParsedOption(*command, "--seed", arguments->seed, parseWholeNumber, "N", "of the clusters")
         ->default_str("1");
     addIntegerOption(*command, "--threads", arguments->threadCount, 0, 4096, "0 for one a core");

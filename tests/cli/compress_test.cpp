@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "prt/asset/asset.h"
 #include "prt/io/image_io.h"
 #include "tests/cli/run_prt.h"
 
@@ -239,6 +241,43 @@ TEST_F(CliCompress, AReportHoldsEveryMethodAgainstTheOriginal) {
         2)
         << "a light without a report";
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "x.prt.glb"));
+}
+
+TEST_F(CliCompress, TexturesHoldTheTransferOfTheVertices) {
+    run({"compress", "float.prt.glb", "-o", "x.prt.glb", "--method", "float", "--textures",
+         "maps"});
+    const Json maps = Json::parse(readText(folder.path() / "maps" / "textures.json"));
+    const Asset asset = readAsset(folder.path() / "float.prt.glb");
+    const std::vector<float> truth = expandLayer(asset.transfer.layers.back());
+    ASSERT_EQ(maps.at("channels"), 3);
+    ASSERT_EQ(maps.at("coefficients").size(), 8u) << "of 9, the ninth is a constant";
+    ASSERT_EQ(maps.at("textures").size(), 6u);
+    const int width = maps.at("width");
+    std::vector<Rgba8Image> textures;
+    for (const std::string name : maps.at("textures")) {
+        const std::string bytes = readText(folder.path() / "maps" / name);
+        textures.push_back(decodeImage(std::as_bytes(std::span(bytes)), name));
+        EXPECT_EQ(textures.back().width, width);
+    }
+    for (std::size_t v = 0; v < asset.transfer.receiverCount; ++v)
+        for (std::size_t s = 0; s < 24; ++s) {
+            const Rgba8& texel = textures[s / 4].pixels[v];
+            const std::uint8_t q[] = {texel.red, texel.green, texel.blue, texel.alpha};
+            const double scale = maps.at("scale")[s];
+            const double value = maps.at("bias")[s].get<double>() + scale * q[s % 4] / 255.0;
+            const std::size_t i = maps.at("coefficients")[s % 8];
+            ASSERT_NEAR(value, truth[v * 27 + s / 8 * 9 + i], scale / 510.0 + 1e-7) << v;
+        }
+    const CommandResult both = runPrt(folder, {"compress", "float.prt.glb", "-o", "y.prt.glb",
+                                               "--textures", "maps2", "--meshopt"});
+    EXPECT_EQ(both.exitCode, 2) << "the order of vertices would differ";
+    run({"bake", "scene.glb", "-o", "one.prt.glb", "--samples", "16", "--bands", "1"});
+    const CommandResult one =
+        runPrt(folder, {"compress", "one.prt.glb", "-o", "y.prt.glb", "--textures", "maps2"});
+    EXPECT_EQ(one.exitCode, 2);
+    EXPECT_NE(one.errors.find("single band"), std::string::npos) << one.errors;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "y.prt.glb"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "maps2"));
 }
 
 TEST_F(CliCompress, AnInterruptLeavesNothing) {
