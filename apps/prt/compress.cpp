@@ -207,8 +207,7 @@ void addCompressCommand(CLI::App& app) {
     CLI::Option* textures =
         command
             ->add_option("--textures", arguments->textures,
-                         "also write the fullest kind as PNGs, four coefficients each in 8 bits, a "
-                         "texel a vertex")
+                         "also write the fullest kind as PNGs of 8 bits, a texel a vertex")
             ->type_name("DIR");
     command
         ->add_flag("--meshopt", arguments->meshopt,
