@@ -58,13 +58,14 @@ void countDoubts(std::span<const float> values, const std::vector<double>& bound
 }
 
 LayerCounts countDoubts(const CompressedTransfer& transfer, const CompressedLayer& layer) {
+    const LayerDecoder decoder(layer);
     LayerCounts counts;
     for (std::size_t begin = 0; begin < transfer.receiverCount; begin += kReceiversAtOnce)
-        countDoubts(expandReceivers(layer, begin,
-                                    std::min(kReceiversAtOnce, transfer.receiverCount - begin)),
-                    coefficientBounds(transfer.bandCount),
-                    coefficientsPerReceiver(transfer.bandCount, layer.channelCount),
-                    layer.largestError, counts);
+        countDoubts(
+            decoder.expand(begin, std::min(kReceiversAtOnce, transfer.receiverCount - begin)),
+            coefficientBounds(transfer.bandCount),
+            coefficientsPerReceiver(transfer.bandCount, layer.channelCount), layer.largestError,
+            counts);
     return counts;
 }
 

@@ -42,15 +42,9 @@ class Trials {
         : layer_(layer),
           part_(takePart(layer, options.seed)),
           options_(options),
+          errorWeights_(weighRows(options.light, rowLength(), layer.channelCount)),
           threadCount_(threadCount),
-          progress_(progress) {
-        if (!options.light.empty()) {
-            const auto bandCount = std::lround(std::sqrt(static_cast<double>(rowLength()) /
-                                                         static_cast<double>(layer.channelCount)));
-            errorWeights_ =
-                lightErrorWeights(options.light, static_cast<int>(bandCount), layer.channelCount);
-        }
-    }
+          progress_(progress) {}
 
     std::size_t rowCount() const { return layer_.coefficients.rowCount(); }
     std::size_t rowLength() const { return layer_.coefficients.columnCount(); }

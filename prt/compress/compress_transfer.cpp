@@ -4,9 +4,9 @@
 #include <cmath>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "prt/base/assert.h"
+#include "prt/compress/compression_error.h"
 #include "prt/compress/light_error_weights.h"
 #include "prt/compress/quantise_table.h"
 
@@ -42,36 +42,15 @@ void checkLayer(const TransferLayer& layer, int bandCount) {
     PRT_ASSERT(isFinite(layer.coefficients), "every coefficient is finite");
 }
 
-/// The largest difference of a coefficient from what is stored.
-double measureLargestError(const CompressedLayer& compressed, const CoefficientTable& truth) {
-    constexpr std::size_t kRowsAtOnce = 4096;
-    double largest = 0.0;
-    std::vector<float> row(truth.columnCount());
-    for (std::size_t begin = 0; begin < truth.rowCount(); begin += kRowsAtOnce) {
-        const std::size_t count = std::min(kRowsAtOnce, truth.rowCount() - begin);
-        const std::vector<float> stored = expandReceivers(compressed, begin, count);
-        for (std::size_t i = 0; i < count; ++i) {
-            truth.readRow(begin + i, std::span(row));
-            for (std::size_t j = 0; j < row.size(); ++j)
-                largest = std::max(largest,
-                                   std::abs(double{stored[i * row.size() + j]} - double{row[j]}));
-        }
-    }
-    return largest;
-}
-
-CompressedLayer compressByClusters(const TransferLayer& layer, int bandCount,
-                                   const CompressOptions& options) {
+CompressedLayer compressByClusters(const TransferLayer& layer, const CompressOptions& options) {
     const ClusterOptions clusters = options.clusters.value_or(ClusterOptions{});
     if (options.budget)
         return compressToBudget(layer, clusters, *options.budget, options.threadCount,
                                 options.progress);
-    std::vector<float> errorWeights;
-    if (!clusters.light.empty())
-        errorWeights = lightErrorWeights(clusters.light, bandCount, layer.channelCount);
-    ClusteredTable clustered =
-        compressClusters(layer.coefficients, errorWeights, clusters, options.encoding,
-                         options.threadCount, options.progress);
+    ClusteredTable clustered = compressClusters(
+        layer.coefficients,
+        weighRows(clusters.light, layer.coefficients.columnCount(), layer.channelCount), clusters,
+        options.encoding, options.threadCount, options.progress);
     return {.transport = layer.transport,
             .channelCount = layer.channelCount,
             .table = std::move(clustered.table),
@@ -84,10 +63,10 @@ CompressedLayer compressLayer(const TransferLayer& layer, int bandCount,
                               const CompressOptions& options) {
     checkLayer(layer, bandCount);
     if (isByColumns(layer, options)) return compressColumns(layer, options);
-    CompressedLayer compressed = compressByClusters(layer, bandCount, options);
+    CompressedLayer compressed = compressByClusters(layer, options);
     if (compressed.bases)
         compressed.largestError =
-            static_cast<float>(measureLargestError(compressed, layer.coefficients));
+            static_cast<float>(measureCompressionError(compressed, layer).largest);
     return compressed;
 }
 

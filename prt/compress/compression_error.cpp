@@ -5,59 +5,83 @@
 
 #include "prt/base/assert.h"
 #include "prt/compress/light_error_weights.h"
+#include "prt/compress/table_rows.h"
 
 namespace prt {
 namespace {
 
-/// Of coefficients [receiver][channel][coefficient].
-struct Comparison {
-    const std::vector<float>& stored;
-    const std::vector<float>& truth;
-    int channelCount;
-    std::size_t rowLength;
+constexpr std::size_t kReceiversAtOnce = 4096;
+
+/// Sums over the coefficients of receivers, which are added block by block.
+class ErrorSums {
+  public:
+    /// @param rowLength  coefficients of all channels
+    ErrorSums(std::span<const Vec3d> light, std::size_t rowLength, int channelCount)
+        : light_(light),
+          weights_(weighRows(light, rowLength, channelCount)),
+          rowLength_(rowLength),
+          channelCount_(static_cast<std::size_t>(channelCount)) {}
+
+    void add(std::span<const float> stored, std::span<const float> truth) {
+        PRT_ASSERT(stored.size() == truth.size(), "both layers have the same coefficients");
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            const double difference = double{stored[i]} - double{truth[i]};
+            squares_ += difference * difference;
+            truthSquares_ += double{truth[i]} * double{truth[i]};
+            largest_ = std::max(largest_, std::abs(difference));
+            if (!light_.empty()) addSeen(i % rowLength_, difference, truth[i]);
+        }
+        count_ += truth.size();
+    }
+
+    CompressionError result() const {
+        CompressionError error;
+        error.largest = largest_;
+        if (count_ == 0) return error;
+        error.rmse = std::sqrt(squares_ / static_cast<double>(count_));
+        if (truthSquares_ > 0.0) error.relativeRmse = std::sqrt(squares_ / truthSquares_);
+        const double vectorCount =
+            static_cast<double>(count_) / static_cast<double>(coefficientCount());
+        if (radiance_ != 0.0)
+            error.seen = std::sqrt(seenSquares_ / vectorCount) / std::abs(radiance_ / vectorCount);
+        return error;
+    }
+
+  private:
+    std::size_t coefficientCount() const { return rowLength_ / channelCount_; }
+
+    void addSeen(std::size_t column, double difference, float truth) {
+        seenSquares_ += weights_[column] * difference * weights_[column] * difference;
+        if (column % coefficientCount() == 0)
+            radiance_ += truth * meanLight(column / coefficientCount());
+    }
+
+    double meanLight(std::size_t channel) const {
+        return channelCount_ == 3 ? light_[0][static_cast<int>(channel)]
+                                  : (light_[0][0] + light_[0][1] + light_[0][2]) / 3.0;
+    }
+
+    std::span<const Vec3d> light_;
+    std::vector<float> weights_;
+    std::size_t rowLength_;
+    std::size_t channelCount_;
+    std::size_t count_ = 0;
+    double squares_ = 0.0, truthSquares_ = 0.0, largest_ = 0.0;
+    double seenSquares_ = 0.0, radiance_ = 0.0;
 };
 
-/// The error as it is seen; see CompressionError.
-double measureSeenError(const Comparison& comparison, std::span<const Vec3d> light) {
-    const auto channelCount = static_cast<std::size_t>(comparison.channelCount);
-    const std::size_t coefficientCount = comparison.rowLength / channelCount;
-    const auto bandCount = std::lround(std::sqrt(static_cast<double>(coefficientCount)));
-    const std::vector<float> weights =
-        lightErrorWeights(light, static_cast<int>(bandCount), comparison.channelCount);
-    PRT_ASSERT(weights.size() == comparison.rowLength, "a row has all bands of its channels");
-    const auto meanLight = [&](std::size_t channel) {
-        return channelCount == 3 ? light[0][static_cast<int>(channel)]
-                                 : (light[0][0] + light[0][1] + light[0][2]) / 3.0;
-    };
-    double squares = 0.0, radiance = 0.0;
-    for (std::size_t i = 0; i < comparison.truth.size(); ++i) {
-        const std::size_t column = i % comparison.rowLength;
-        const double error = double{comparison.stored[i]} - double{comparison.truth[i]};
-        squares += weights[column] * error * weights[column] * error;
-        if (column % coefficientCount == 0)
-            radiance += comparison.truth[i] * meanLight(column / coefficientCount);
+/// @param readTruth  gives the floats of receivers [first, first + count)
+template <class ReadTruth>
+CompressionError compare(const CompressedLayer& compressed, std::size_t rowLength,
+                         std::span<const Vec3d> light, ReadTruth readTruth) {
+    const LayerDecoder decoder(compressed);
+    ErrorSums sums(light, rowLength, compressed.channelCount);
+    const std::size_t receiverCount = compressed.table.numbers.rowCount();
+    for (std::size_t begin = 0; begin < receiverCount; begin += kReceiversAtOnce) {
+        const std::size_t count = std::min(kReceiversAtOnce, receiverCount - begin);
+        sums.add(decoder.expand(begin, count), readTruth(begin, count));
     }
-    const double count =
-        static_cast<double>(comparison.truth.size()) / static_cast<double>(coefficientCount);
-    return radiance != 0.0 ? std::sqrt(squares / count) / std::abs(radiance / count) : 0.0;
-}
-
-CompressionError compare(const Comparison& comparison, std::span<const Vec3d> light) {
-    const std::vector<float>& truth = comparison.truth;
-    PRT_ASSERT(comparison.stored.size() == truth.size(), "both layers have the same coefficients");
-    CompressionError error;
-    double squares = 0.0, truthSquares = 0.0;
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-        const double difference = double{comparison.stored[i]} - double{truth[i]};
-        squares += difference * difference;
-        truthSquares += double{truth[i]} * double{truth[i]};
-        error.largest = std::max(error.largest, std::abs(difference));
-    }
-    if (truth.empty()) return error;
-    error.rmse = std::sqrt(squares / static_cast<double>(truth.size()));
-    if (truthSquares > 0.0) error.relativeRmse = std::sqrt(squares / truthSquares);
-    if (!light.empty()) error.seen = measureSeenError(comparison, light);
-    return error;
+    return sums.result();
 }
 
 std::size_t rowLengthOf(const CompressedLayer& layer) {
@@ -69,17 +93,26 @@ std::size_t rowLengthOf(const CompressedLayer& layer) {
 CompressionError measureCompressionError(const CompressedLayer& compressed,
                                          const CompressedLayer& original,
                                          std::span<const Vec3d> light) {
-    const std::vector<float> stored = expandLayer(compressed), truth = expandLayer(original);
-    return compare({stored, truth, original.channelCount, rowLengthOf(original)}, light);
+    PRT_ASSERT(compressed.table.numbers.rowCount() == original.table.numbers.rowCount(),
+               "both layers have the same receivers");
+    const LayerDecoder decoder(original);
+    return compare(
+        compressed, rowLengthOf(original), light,
+        [&](std::size_t first, std::size_t count) { return decoder.expand(first, count); });
 }
 
 CompressionError measureCompressionError(const CompressedLayer& compressed,
                                          const TransferLayer& original,
                                          std::span<const Vec3d> light) {
-    const std::vector<float> stored = expandLayer(compressed);
-    const std::vector<float> truth = copyRows<float>(original.coefficients);
-    return compare({stored, truth, original.channelCount, original.coefficients.columnCount()},
-                   light);
+    const CoefficientTable& truth = original.coefficients;
+    PRT_ASSERT(compressed.table.numbers.rowCount() == truth.rowCount(),
+               "both layers have the same receivers");
+    return compare(compressed, truth.columnCount(), light,
+                   [&](std::size_t first, std::size_t count) {
+                       std::vector<float> rows(count * truth.columnCount());
+                       readRows(truth, first, count, rows);
+                       return rows;
+                   });
 }
 
 }  // namespace prt

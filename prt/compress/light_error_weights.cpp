@@ -38,4 +38,14 @@ std::vector<float> lightErrorWeights(std::span<const Vec3d> light, int bandCount
     return rounded;
 }
 
+std::vector<float> weighRows(std::span<const Vec3d> light, std::size_t rowLength,
+                             int channelCount) {
+    if (light.empty()) return {};
+    const auto bandCount =
+        static_cast<int>(std::lround(std::sqrt(static_cast<double>(rowLength) / channelCount)));
+    std::vector<float> weights = lightErrorWeights(light, bandCount, channelCount);
+    PRT_ASSERT(weights.size() == rowLength, "a row has all bands of its channels");
+    return weights;
+}
+
 }  // namespace prt

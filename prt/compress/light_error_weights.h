@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -25,5 +26,9 @@ namespace prt {
 /// @param channelCount  of the transfer, 1 or 3
 /// @return              [channel][coefficient]
 std::vector<float> lightErrorWeights(std::span<const Vec3d> light, int bandCount, int channelCount);
+
+/// The same for rows of transfer, whose length tells the bands; none without light, as VectorSet
+/// has errors that all weigh alike.
+std::vector<float> weighRows(std::span<const Vec3d> light, std::size_t rowLength, int channelCount);
 
 }  // namespace prt

@@ -34,36 +34,6 @@ bool isComplete(const ClusterBases& bases, std::size_t dimension) {
            vectors.numbers.elementBytes() == bytesPerCoefficient(vectors.encoding);
 }
 
-/// b_k0 + Σ_p w_p b_kp for each receiver, summed in double.
-std::vector<float> expandClusters(const CompressedLayer& layer, std::size_t firstReceiver,
-                                  std::size_t receiverCount) {
-    const ClusterBases& bases = *layer.bases;
-    const std::vector<std::size_t> firstVectors = bases.firstVectors();
-    const std::size_t dimension = bases.vectors.numbers.columnCount();
-    const std::size_t rowLength = layer.table.numbers.columnCount();
-    std::vector<std::uint32_t> clusters(receiverCount);
-    readClusters(layer, firstReceiver, clusters);
-    const std::vector<float> rows = expandRows(layer.table, firstReceiver, receiverCount);
-    const std::vector<float> vectors = expandTable(bases.vectors);
-    std::vector<float> values;
-    values.reserve(receiverCount * dimension);
-    std::vector<double> sum(dimension);
-    for (std::size_t i = 0; i < receiverCount; ++i) {
-        const std::uint32_t k = clusters[i];
-        const float* vector = &vectors[firstVectors[k] * dimension];
-        std::copy_n(vector, dimension, sum.begin());
-        for (std::uint32_t p = 1; p <= bases.componentCounts[k]; ++p) {
-            vector += dimension;
-            const double weight = rows[i * rowLength + p];
-            for (std::size_t j = 0; j < dimension; ++j)
-                sum[j] += weight * vector[j];
-        }
-        for (const double value : sum)
-            values.push_back(static_cast<float>(value));
-    }
-    return values;
-}
-
 }  // namespace
 
 std::size_t ClusterBases::componentCount() const {
@@ -118,14 +88,47 @@ void readClusters(const CompressedLayer& layer, std::size_t firstReceiver,
     }
 }
 
-std::vector<float> expandReceivers(const CompressedLayer& layer, std::size_t firstReceiver,
-                                   std::size_t receiverCount) {
-    return layer.bases ? expandClusters(layer, firstReceiver, receiverCount)
-                       : expandRows(layer.table, firstReceiver, receiverCount);
+LayerDecoder::LayerDecoder(const CompressedLayer& layer) : layer_(layer) {
+    if (!layer.bases) return;
+    vectors_ = expandTable(layer.bases->vectors);
+    firstVectors_ = layer.bases->firstVectors();
+}
+
+std::vector<float> LayerDecoder::expand(std::size_t firstReceiver,
+                                        std::size_t receiverCount) const {
+    return layer_.bases ? expandClusters(firstReceiver, receiverCount)
+                        : expandRows(layer_.table, firstReceiver, receiverCount);
+}
+
+/// b_k0 + Σ_p w_p b_kp for each receiver, summed in double.
+std::vector<float> LayerDecoder::expandClusters(std::size_t firstReceiver,
+                                                std::size_t receiverCount) const {
+    const std::size_t dimension = layer_.bases->vectors.numbers.columnCount();
+    const std::size_t rowLength = layer_.table.numbers.columnCount();
+    std::vector<std::uint32_t> clusters(receiverCount);
+    readClusters(layer_, firstReceiver, clusters);
+    const std::vector<float> rows = expandRows(layer_.table, firstReceiver, receiverCount);
+    std::vector<float> values;
+    values.reserve(receiverCount * dimension);
+    std::vector<double> sum(dimension);
+    for (std::size_t i = 0; i < receiverCount; ++i) {
+        const std::uint32_t k = clusters[i];
+        const float* vector = &vectors_[firstVectors_[k] * dimension];
+        std::copy_n(vector, dimension, sum.begin());
+        for (std::uint32_t p = 1; p <= layer_.bases->componentCounts[k]; ++p) {
+            vector += dimension;
+            const double weight = rows[i * rowLength + p];
+            for (std::size_t j = 0; j < dimension; ++j)
+                sum[j] += weight * vector[j];
+        }
+        for (const double value : sum)
+            values.push_back(static_cast<float>(value));
+    }
+    return values;
 }
 
 std::vector<float> expandLayer(const CompressedLayer& layer) {
-    return expandReceivers(layer, 0, layer.table.numbers.rowCount());
+    return LayerDecoder(layer).expand(0, layer.table.numbers.rowCount());
 }
 
 TransferField expandTransfer(const CompressedTransfer& transfer) {

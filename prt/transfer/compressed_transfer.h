@@ -68,11 +68,24 @@ bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer
 void readClusters(const CompressedLayer& layer, std::size_t firstReceiver,
                   std::span<std::uint32_t> clusters);
 
-/// Decodes some receivers of a layer to floats, [receiver][channel][coefficient].
-std::vector<float> expandReceivers(const CompressedLayer& layer, std::size_t firstReceiver,
-                                   std::size_t receiverCount);
+/// Decodes receivers of a layer, some at a time; what they have in common is decoded once.
+class LayerDecoder {
+  public:
+    /// @param layer  must outlive this
+    explicit LayerDecoder(const CompressedLayer& layer);
 
-/// Decodes all of them.
+    /// Floats, [receiver][channel][coefficient].
+    std::vector<float> expand(std::size_t firstReceiver, std::size_t receiverCount) const;
+
+  private:
+    std::vector<float> expandClusters(std::size_t firstReceiver, std::size_t receiverCount) const;
+
+    const CompressedLayer& layer_;
+    std::vector<float> vectors_{};             // of the bases
+    std::vector<std::size_t> firstVectors_{};  // of the bases
+};
+
+/// Decodes all receivers.
 std::vector<float> expandLayer(const CompressedLayer& layer);
 
 /// Decodes all layers.
