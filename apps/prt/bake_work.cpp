@@ -203,12 +203,10 @@ TransferField bakeScene(const Scene& scene, const BakeArguments& arguments, Bake
     return field;
 }
 
-std::uint64_t countBytesPerReceiver(const CompressedTransfer& transfer) {
+std::uint64_t countVertexBytes(const CompressedTransfer& transfer) {
     double bytes = 0.0;
     for (const CompressedLayer& layer : transfer.layers)
-        bytes += static_cast<double>(bytesPerReceiver(layer)) +
-                 static_cast<double>(countSharedBytes(layer)) /
-                     static_cast<double>(transfer.receiverCount);
+        bytes += static_cast<double>(bytesPerReceiver(layer)) + sharedBytesPerReceiver(layer);
     return static_cast<std::uint64_t>(std::ceil(bytes));
 }
 
@@ -246,7 +244,7 @@ CompressedTransfer bakeCompressed(const Scene& scene, const BakeArguments& argum
     seconds.compress = watch.seconds();
     log.finishStage("compress", seconds.compress,
                     fmt::format("{}, {} a vertex", methodName(arguments.method),
-                                formatCount(countBytesPerReceiver(transfer), "byte")));
+                                formatCount(countVertexBytes(transfer), "byte")));
     return transfer;
 }
 

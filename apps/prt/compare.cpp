@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -61,8 +62,8 @@ std::optional<BandCounts> parseBandCounts(std::string_view text) {
 
 /// What a layer stores for a vertex, with its share of what is stored for all.
 std::size_t countVertexBytes(const CompressedLayer& layer) {
-    const std::size_t receiverCount = std::max<std::size_t>(1, layer.table.numbers.rowCount());
-    return bytesPerReceiver(layer) + (countSharedBytes(layer) + receiverCount - 1) / receiverCount;
+    return bytesPerReceiver(layer) +
+           static_cast<std::size_t>(std::ceil(sharedBytesPerReceiver(layer)));
 }
 
 /// Compares one asset with its path-traced truth, under one light after the other.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -16,10 +15,6 @@ namespace {
 
 // On a plot and in a table, what is less than this counts as nothing.
 constexpr double kLeastError = 1e-7;
-
-std::string formatDecibels(double decibels) {
-    return std::isfinite(decibels) ? fmt::format("{:.1f} dB", decibels) : "equal";
-}
 
 std::string formatError(double part) {
     return part < kLeastError ? "none" : fmt::format("{:.2g} %", 100.0 * part);

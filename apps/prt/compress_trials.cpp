@@ -92,8 +92,7 @@ CompressionTrial judgeCompression(const CompressedTransfer& original,
                                   const CompressedTransfer& compressed, const Lighting& light) {
     const CompressedLayer& layer = compressed.layers.front();
     return {.bytes = countBytesPerReceiver(layer),
-            .sharedBytes = static_cast<double>(countSharedBytes(layer)) /
-                           static_cast<double>(compressed.receiverCount),
+            .sharedBytes = sharedBytesPerReceiver(layer),
             .error = measureCompressionError(layer, original.layers.front(), light.coefficients),
             .relightSeconds = timeRelight(compressed, light)};
 }

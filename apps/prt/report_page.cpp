@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <string_view>
 
@@ -28,10 +27,6 @@ std::string formatExcess(const NoisyError& error) {
 std::string formatRelativeExcess(const NoisyError& error) {
     if (error.isSignificant()) return formatPercent(error.relative(error.rmseWithoutNoise()));
     return "&lt; " + formatPercent(error.relative(error.largestRmseWithoutNoise()));
-}
-
-std::string formatDecibels(double decibels) {
-    return std::isfinite(decibels) ? fmt::format("{:.1f} dB", decibels) : "equal";
 }
 
 /// How far the lighting's bands, or all of the light, are from what was relit.

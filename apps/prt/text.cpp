@@ -57,6 +57,10 @@ std::string formatPercent(double part) {
     return fmt::format("{:.{}f} %", percent, percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0);
 }
 
+std::string formatDecibels(double decibels) {
+    return std::isfinite(decibels) ? fmt::format("{:.1f} dB", decibels) : "equal";
+}
+
 std::string formatDuration(double seconds) {
     const auto whole = static_cast<std::uint64_t>(std::ceil(std::max(seconds, 0.0)));
     if (whole < 60) return fmt::format("{} s", whole);

@@ -268,10 +268,8 @@ CompressedLayer storeForError(Trials& trials, double maxError) {
 
 double countBytesPerReceiver(const CompressedLayer& layer) {
     const CoefficientTable& numbers = layer.table.numbers;
-    const double own = static_cast<double>(kWidth * numbers.panelCount() * numbers.elementBytes());
-    if (numbers.rowCount() == 0) return own;
-    return own +
-           static_cast<double>(countSharedBytes(layer)) / static_cast<double>(numbers.rowCount());
+    return static_cast<double>(kWidth * numbers.panelCount() * numbers.elementBytes()) +
+           sharedBytesPerReceiver(layer);
 }
 
 CompressedLayer compressToBudget(const TransferLayer& layer, const ClusterOptions& options,

@@ -62,6 +62,12 @@ std::size_t countSharedBytes(const CompressedLayer& layer) {
     return layer.bases ? layer.bases->vectors.numbers.byteCount() : 0;
 }
 
+double sharedBytesPerReceiver(const CompressedLayer& layer) {
+    const std::size_t receiverCount = layer.table.numbers.rowCount();
+    if (receiverCount == 0) return 0.0;
+    return static_cast<double>(countSharedBytes(layer)) / static_cast<double>(receiverCount);
+}
+
 bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer) {
     const CoefficientTable& numbers = layer.table.numbers;
     const std::size_t dimension = coefficientsPerReceiver(transfer.bandCount, layer.channelCount);

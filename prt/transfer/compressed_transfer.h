@@ -60,6 +60,9 @@ std::size_t bytesPerReceiver(const CompressedLayer& layer);
 /// What a layer stores for all receivers together: the bases of its clusters.
 std::size_t countSharedBytes(const CompressedLayer& layer);
 
+/// The part of these that falls to one receiver; 0 if there is none.
+double sharedBytesPerReceiver(const CompressedLayer& layer);
+
 /// Whether a layer has all coefficients of all receivers, stored as it says.
 bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer);
 
