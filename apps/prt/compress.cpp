@@ -62,8 +62,8 @@ CompressedTransfer compressAsset(const CompressedTransfer& original,
     for (const CompressedLayer& before : original.layers) {
         const TransferLayer layer = {
             before.transport, before.channelCount,
-            makeTable(coefficientsPerReceiver(original.bandCount, before.channelCount),
-                      expandLayer(before))};
+            makeTable(coefficientsPerReceiver(original.bandCount, before), expandLayer(before)),
+            before.incidentBandCount};
         compressed.layers.push_back(compressLayer(layer, original.bandCount, options));
         compressed.layers.back().largestError += before.largestError;
         tellCompression(compressed.layers.back(), layer, bytesPerReceiver(before), arguments.method,

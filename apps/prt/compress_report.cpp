@@ -115,7 +115,7 @@ std::vector<FewVectorsTrial> tryFewVectors(const CompressedTransfer& original,
                                            const DisplayOptions& display) {
     constexpr std::size_t kClusterCount = 64;
     const std::size_t dimension =
-        coefficientsPerReceiver(original.bandCount, original.layers.front().channelCount);
+        coefficientsPerReceiver(original.bandCount, original.layers.front());
     std::vector<FewVectorsTrial> trials;
     for (const std::size_t vectorCount : {2u, 3u, 4u}) {
         CompressOptions options{
@@ -191,12 +191,11 @@ CompressReport examineCompression(const Asset& original, const CompressedTransfe
                                   const CompressOptions& options, const Lighting& light,
                                   const ViewArguments& view, StageLog& log) {
     const CompressedLayer& layer = original.transfer.layers.front();
-    CompressReport report{
-        .transport = layer.transport,
-        .vertexCount = original.scene.vertexCount(),
-        .dimension = coefficientsPerReceiver(original.transfer.bandCount, layer.channelCount),
-        .bandCount = original.transfer.bandCount,
-        .exposureStops = chooseExposure(light)};
+    CompressReport report{.transport = layer.transport,
+                          .vertexCount = original.scene.vertexCount(),
+                          .dimension = coefficientsPerReceiver(original.transfer.bandCount, layer),
+                          .bandCount = original.transfer.bandCount,
+                          .exposureStops = chooseExposure(light)};
     report.chosen = judgeCompression(original.transfer, compressed, light);
     report.trials = tryCompressions(original.transfer, light, options, log);
 

@@ -100,8 +100,8 @@ CompressionTrial judgeCompression(const CompressedTransfer& original,
 std::vector<CompressionTrial> tryCompressions(const CompressedTransfer& original,
                                               const Lighting& light, const CompressOptions& common,
                                               StageLog& log) {
-    const std::vector<Candidate> candidates = listCandidates(
-        coefficientsPerReceiver(original.bandCount, original.layers.front().channelCount));
+    const std::vector<Candidate> candidates =
+        listCandidates(coefficientsPerReceiver(original.bandCount, original.layers.front()));
     const Stopwatch watch;
     std::vector<CompressionTrial> trials;
     const ProgressCallback progress = log.callback();

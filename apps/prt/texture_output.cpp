@@ -27,7 +27,8 @@ TransferLayer fillGrid(const CompressedTransfer& transfer, std::size_t texelCoun
     const std::vector<float> last(rows.end() - static_cast<std::ptrdiff_t>(rowLength), rows.end());
     while (rows.size() < texelCount * rowLength)
         rows.insert(rows.end(), last.begin(), last.end());
-    return {layer.transport, layer.channelCount, makeTable(rowLength, rows)};
+    return {layer.transport, layer.channelCount, makeTable(rowLength, rows),
+            layer.incidentBandCount};
 }
 
 Rgba8Image makeImage(const TransferTextures& textures, std::size_t index) {

@@ -140,7 +140,7 @@ void parseLayer(const JsonCursor& object, int minorVersion, AssetHeader& header)
     layer.channelCount = parseCount(object.at("channels"));
     if (layer.channelCount != 1 && layer.channelCount != 3)
         object.at("channels").reject("must be 1 or 3");
-    const std::size_t dimension = coefficientsPerReceiver(header.bandCount, layer.channelCount);
+    const std::size_t dimension = coefficientsPerReceiver(header.bandCount, layer);
     VectorsPlace vectors;
     if (layer.bases)
         vectors = parseClusters(object.at("clusters"), dimension, layer);
@@ -216,7 +216,7 @@ AccessorInfo attributeInfo(const CompressedLayer& layer, std::size_t vertexCount
 
 std::size_t countNumbers(int bandCount, const CompressedLayer& layer) {
     return layer.bases ? 1 + layer.bases->componentCount()
-                       : coefficientsPerReceiver(bandCount, layer.channelCount);
+                       : coefficientsPerReceiver(bandCount, layer);
 }
 
 std::size_t countAttributes(int bandCount, const CompressedLayer& layer) {

@@ -64,8 +64,7 @@ LayerCounts countDoubts(const CompressedTransfer& transfer, const CompressedLaye
         countDoubts(
             decoder.expand(begin, std::min(kReceiversAtOnce, transfer.receiverCount - begin)),
             coefficientBounds(transfer.bandCount),
-            coefficientsPerReceiver(transfer.bandCount, layer.channelCount), layer.largestError,
-            counts);
+            coefficientsPerReceiver(transfer.bandCount, layer), layer.largestError, counts);
     return counts;
 }
 

@@ -127,7 +127,7 @@ VectorsPlace parseClusters(const JsonCursor& object, std::size_t dimension,
 
 void readVectors(const GltfDocument& document, const VectorsPlace& place, int bandCount,
                  CompressedLayer& layer) {
-    const std::size_t dimension = coefficientsPerReceiver(bandCount, layer.channelCount);
+    const std::size_t dimension = coefficientsPerReceiver(bandCount, layer);
     const std::string name = "accessor " + std::to_string(place.accessor);
     if (place.accessor >= document.accessorCount())
         reject("has no " + name + ", which should hold the vectors of clusters");

@@ -47,8 +47,7 @@ std::vector<GlbAccessor> makeAccessors(const CompressedTransfer& transfer) {
         const auto write = [&bases = *layer.bases](std::span<std::byte> values) {
             std::ranges::copy(packVectors(bases), values.begin());
         };
-        const std::size_t dimension =
-            coefficientsPerReceiver(transfer.bandCount, layer.channelCount);
+        const std::size_t dimension = coefficientsPerReceiver(transfer.bandCount, layer);
         accessors.push_back(
             {"the vectors of clusters", vectorsInfo(*layer.bases, dimension), write});
     }

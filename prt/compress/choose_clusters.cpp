@@ -98,7 +98,8 @@ class Trials {
         const auto indices = drawIndices(all.rowCount(), kMostRows, RandomStream(seed, 5));
         std::vector<float> rows(indices.size() * all.columnCount());
         readRows(all, indices, rows);
-        return {layer.transport, layer.channelCount, makeTable(all.columnCount(), rows)};
+        return {layer.transport, layer.channelCount, makeTable(all.columnCount(), rows),
+                layer.incidentBandCount};
     }
 
     double measure(const CompressedLayer& stored, const TransferLayer& truth) const {
@@ -116,7 +117,9 @@ class Trials {
 
     CompressedLayer store(const TransferLayer& layer, const Form& form, double maxError,
                           std::size_t iterationCount, const ProgressCallback& progress) const {
-        CompressedLayer stored{.transport = layer.transport, .channelCount = layer.channelCount};
+        CompressedLayer stored{.transport = layer.transport,
+                               .channelCount = layer.channelCount,
+                               .incidentBandCount = layer.incidentBandCount};
         if (form.clusterCount == 0) {
             stored.table = quantiseTable(layer.coefficients, form.encoding);
             return stored;

@@ -32,13 +32,13 @@ bool isByColumns(const TransferLayer& layer, const CompressOptions& options) {
 CompressedLayer compressColumns(TransferLayer layer, const CompressOptions& options) {
     return {.transport = layer.transport,
             .channelCount = layer.channelCount,
-            .table = quantiseTable(std::move(layer.coefficients), options.encoding)};
+            .table = quantiseTable(std::move(layer.coefficients), options.encoding),
+            .incidentBandCount = layer.incidentBandCount};
 }
 
 void checkLayer(const TransferLayer& layer, int bandCount) {
-    PRT_ASSERT(
-        layer.coefficients.columnCount() == coefficientsPerReceiver(bandCount, layer.channelCount),
-        "the layer has all coefficients");
+    PRT_ASSERT(layer.coefficients.columnCount() == coefficientsPerReceiver(bandCount, layer),
+               "the layer has all coefficients");
     PRT_ASSERT(isFinite(layer.coefficients), "every coefficient is finite");
 }
 
@@ -54,7 +54,8 @@ CompressedLayer compressByClusters(const TransferLayer& layer, const CompressOpt
     return {.transport = layer.transport,
             .channelCount = layer.channelCount,
             .table = std::move(clustered.table),
-            .bases = std::move(clustered.bases)};
+            .bases = std::move(clustered.bases),
+            .incidentBandCount = layer.incidentBandCount};
 }
 
 }  // namespace

@@ -54,6 +54,10 @@ const CompressedLayer* CompressedTransfer::findLayer(Transport transport) const 
     return found == layers.end() ? nullptr : &*found;
 }
 
+std::size_t coefficientsPerReceiver(int bandCount, const CompressedLayer& layer) {
+    return coefficientsPerReceiver(bandCount, layer.channelCount, layer.incidentBandCount);
+}
+
 std::size_t bytesPerReceiver(const CompressedLayer& layer) {
     return layer.table.numbers.columnCount() * layer.table.numbers.elementBytes();
 }
@@ -70,7 +74,7 @@ double sharedBytesPerReceiver(const CompressedLayer& layer) {
 
 bool isComplete(const CompressedTransfer& transfer, const CompressedLayer& layer) {
     const CoefficientTable& numbers = layer.table.numbers;
-    const std::size_t dimension = coefficientsPerReceiver(transfer.bandCount, layer.channelCount);
+    const std::size_t dimension = coefficientsPerReceiver(transfer.bandCount, layer);
     if (numbers.rowCount() != transfer.receiverCount ||
         numbers.elementBytes() != bytesPerCoefficient(layer.table.encoding))
         return false;
@@ -145,8 +149,8 @@ TransferField expandTransfer(const CompressedTransfer& transfer) {
     for (const CompressedLayer& layer : transfer.layers)
         field.layers.push_back(
             {layer.transport, layer.channelCount,
-             makeTable(coefficientsPerReceiver(transfer.bandCount, layer.channelCount),
-                       expandLayer(layer))});
+             makeTable(coefficientsPerReceiver(transfer.bandCount, layer), expandLayer(layer)),
+             layer.incidentBandCount});
     return field;
 }
 

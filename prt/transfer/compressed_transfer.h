@@ -22,7 +22,7 @@ namespace prt {
 struct ClusterBases {
     std::vector<std::uint32_t> componentCounts{};  ///< of each cluster, beyond b_k0
     StoredTable vectors{};  ///< b_k0, b_k1, … of the first cluster, then those of the next; a row
-                            ///< is [channel][coefficient]
+                            ///< is that of a receiver
 
     std::size_t clusterCount() const { return componentCounts.size(); }
     /// The most that a cluster has.
@@ -35,14 +35,17 @@ struct ClusterBases {
 struct CompressedLayer {
     Transport transport = Transport::shadowed;
     int channelCount = 1;
-    /// A row a receiver: T as [channel][coefficient]; or, with clusters, k as it is and the
+    /// A row a receiver: that of the TransferLayer; or, with clusters, k as it is and the
     /// fractions w_1, w_2, …, without scale and bias, as many as bases.componentCount() and 0
     /// beyond those of k.
     StoredTable table{};
     std::optional<ClusterBases> bases{};  ///< of a layer with clusters
     float largestError = 0.0f;  ///< how far a coefficient may be from what was baked, where that is
                                 ///< more than the rounding of `table`
+    int incidentBandCount = 0;  ///< as that of the TransferLayer
 };
+
+std::size_t coefficientsPerReceiver(int bandCount, const CompressedLayer& layer);
 
 /// A TransferField as it is stored.
 struct CompressedTransfer {

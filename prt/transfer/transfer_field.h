@@ -10,12 +10,18 @@
 
 namespace prt {
 
-/// How much of light transport a transfer vector holds; each includes the one before.
+/// How much of light transport a layer holds: vectors, of what a diffuse receiver reflects, or
+/// matrices, of what comes in at a receiver of any material.
 enum class Transport {
-    unshadowed,      ///< the cosine alone
+    unshadowed,      ///< vectors: the cosine alone
     shadowed,        ///< and visibility
     interreflected,  ///< and diffuse bounces, coloured by the other surfaces
+    glossyShadowed,  ///< matrices: visibility alone
+    glossy,          ///< and bounces off the materials as they are
 };
+
+/// Whether the layer is of matrices.
+bool isGlossy(Transport transport);
 
 std::string_view transportName(Transport transport);
 std::optional<Transport> parseTransport(std::string_view name);
@@ -26,10 +32,16 @@ std::optional<Transport> parseTransport(std::string_view name);
 ///
 /// The receiver's own albedo is outside, every other surface's is inside (C6), so outgoing radiance
 /// is albedo(x) Σ_i T_i L_i (C7).
+///
+/// Or transfer matrices, from light to incident radiance in the receiver's frame R_x
+/// (frameFromNormal, normal = +z), nothing coming in from below:
+///
+///   M_ij(x) = ∫ y_i(R_x ω) V(x, ω) y_j(ω) dω + bounces                               [Sloan02, 5]
 struct TransferLayer {
     Transport transport = Transport::shadowed;
     int channelCount = 1;           ///< 1: the same for red, green and blue; 3: coloured by bounces
-    CoefficientTable coefficients;  ///< of floats: a row is [channel][coefficient]
+    CoefficientTable coefficients;  ///< of floats: a row is [channel][j], or [channel][i][j]
+    int incidentBandCount = 0;      ///< of matrices, i < n_in²; 0 of vectors
 };
 
 /// What a bake makes: the transfer of a scene's receivers.
@@ -44,10 +56,12 @@ struct TransferField {
     const TransferLayer* findLayer(Transport transport) const;
 };
 
-/// How many numbers a layer holds for one receiver: n² for each channel.
-std::size_t coefficientsPerReceiver(int bandCount, int channelCount);
+/// How many numbers a layer holds for one receiver: n² for each channel, and of matrices so many
+/// for each of n_in² rows.
+std::size_t coefficientsPerReceiver(int bandCount, int channelCount, int incidentBandCount = 0);
+std::size_t coefficientsPerReceiver(int bandCount, const TransferLayer& layer);
 
-/// The n² coefficients of one receiver and channel.
+/// The n² coefficients of one receiver and channel of a layer of vectors.
 std::vector<float> transferVector(const TransferField& field, const TransferLayer& layer,
                                   std::size_t receiver, int channel);
 

@@ -10,12 +10,14 @@ namespace {
 
 TEST(Transfer, NamesOfTransportsAndEncodingsAreReadBack) {
     for (const Transport transport :
-         {Transport::unshadowed, Transport::shadowed, Transport::interreflected})
+         {Transport::unshadowed, Transport::shadowed, Transport::interreflected,
+          Transport::glossyShadowed, Transport::glossy})
         EXPECT_EQ(parseTransport(transportName(transport)), transport);
     for (const TransferEncoding encoding :
          {TransferEncoding::float32, TransferEncoding::unorm16, TransferEncoding::unorm8})
         EXPECT_EQ(parseEncoding(encodingName(encoding)), encoding);
     EXPECT_EQ(transportName(Transport::interreflected), "interreflected");
+    EXPECT_EQ(transportName(Transport::glossyShadowed), "glossy-shadowed");
     EXPECT_EQ(encodingName(TransferEncoding::unorm16), "unorm16");
     EXPECT_FALSE(parseTransport("Shadowed"));
     EXPECT_FALSE(parseEncoding(""));
@@ -39,6 +41,16 @@ TEST(Transfer, CoefficientsAreStoredByReceiverThenChannelThenIndex) {
 
     EXPECT_EQ(transferVector(field, *shadowed, 1, 0), (std::vector<float>{4, 5, 6, 7}));
     EXPECT_EQ(transferVector(field, *interreflected, 1, 2), (std::vector<float>{20, 21, 22, 23}));
+}
+
+TEST(Transfer, MatricesHaveARowForEachCoefficientOfIncidentRadiance) {
+    EXPECT_FALSE(isGlossy(Transport::interreflected));
+    EXPECT_TRUE(isGlossy(Transport::glossyShadowed));
+    EXPECT_TRUE(isGlossy(Transport::glossy));
+    const TransferLayer matrices{Transport::glossy, 3, {}, 2};
+    EXPECT_EQ(coefficientsPerReceiver(5, matrices), 3u * 4u * 25u);
+    const TransferLayer vectors{Transport::shadowed, 1, {}};
+    EXPECT_EQ(coefficientsPerReceiver(5, vectors), 25u);
 }
 
 template <class Number>
