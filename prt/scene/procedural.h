@@ -14,7 +14,7 @@ struct ProceduralScene {
     Scene (*make)();
 };
 
-/// teapot, cornell, columns, bowl, sphere-over-plane, blocker, box.
+/// teapot, cornell, columns, bowl, sphere-over-plane, blocker, materials, box.
 std::span<const ProceduralScene> proceduralScenes();
 
 /// @param name    one of proceduralScenes()

@@ -8,14 +8,16 @@
 #include "prt/scene/framing.h"
 #include "prt/scene/mesh_building.h"
 #include "prt/scene/procedural.h"
+#include "prt/scene/surface_color.h"
 
 namespace prt {
 namespace {
 
-// A named albedo.
+// A named base colour.
 struct Paint {
-    const char* name;
+    std::string name;
     Vec3f albedo;
+    MetallicRoughness surface{};
 };
 
 // White, red and green are those of the Cornell box [Goral84], rounded.
@@ -31,7 +33,7 @@ const Paint kTerracotta{"terracotta", Vec3f(0.6f, 0.2f, 0.1f)};
 const Paint kBlue{"blue", Vec3f(0.08f, 0.16f, 0.5f)};
 const Paint kGold{"gold", Vec3f(0.8f, 0.5f, 0.1f)};
 
-void addPart(Scene& scene, const char* name, const Paint& paint, Mesh mesh) {
+void addPart(Scene& scene, const std::string& name, const Paint& paint, Mesh mesh) {
     std::size_t material = 0;
     while (material < scene.materials.size() && scene.materials[material].name != paint.name)
         ++material;
@@ -39,6 +41,8 @@ void addPart(Scene& scene, const char* name, const Paint& paint, Mesh mesh) {
         scene.materials.emplace_back().name = paint.name;
         scene.materials.back().baseColorFactor =
             Vec4f(paint.albedo.x, paint.albedo.y, paint.albedo.z, 1.0f);
+        scene.materials.back().metallicFactor = paint.surface.metallic;
+        scene.materials.back().roughnessFactor = paint.surface.roughness;
     }
     mesh.name = name;
     mesh.material = material;
@@ -290,7 +294,34 @@ Scene makeBoxScene() {
     return scene;
 }
 
-constexpr std::array<ProceduralScene, 7> kScenes{{
+// Two rows, each from a mirror to matt: metal at the back, lacquer in front.
+Scene makeMaterialsScene() {
+    constexpr int kSphereSegments = 64;
+    constexpr int kFloorCells = 96;
+    constexpr float kRadius = 0.42f;
+    constexpr float kClearance = 0.001f;
+    const std::array<std::string, 5> roughnesses = {"0.1", "0.3", "0.5", "0.7", "1"};
+    const Paint copper{"metal ", Vec3f(0.89f, 0.6f, 0.5f), {.metallic = 1.0f}};
+    const Paint lacquer{"lacquer ", Vec3f(0.08f, 0.2f, 0.5f)};
+
+    Scene scene;
+    for (const auto& [row, z] : {std::pair(copper, -0.5f), std::pair(lacquer, 0.5f)}) {
+        float x = -2.0f;
+        for (const std::string& roughness : roughnesses) {
+            Paint paint = row;
+            paint.name += roughness;
+            paint.surface.roughness = std::stof(roughness);
+            addPart(scene, paint.name, paint,
+                    makeSphere(Vec3f(x, kRadius + kClearance, z), kRadius, kSphereSegments));
+            x += 1.0f;
+        }
+    }
+    addPart(scene, "floor", kWhite, makeFloor(3.0f, 0.0f, kFloorCells));
+    addCamera(scene, Vec3f(0.0f, 3.0f, 6.0f), Vec3f(0.0f, 0.25f, 0.0f), 36.0f);
+    return scene;
+}
+
+constexpr std::array<ProceduralScene, 8> kScenes{{
     {"teapot", "the Utah teapot between a red and a green wall", makeTeapotScene},
     {"cornell", "two blocks in a Cornell box open to the front and the top", makeCornellScene},
     {"columns", "a small temple: soft shadows, and colour bleeding under its roof",
@@ -300,6 +331,8 @@ constexpr std::array<ProceduralScene, 7> kScenes{{
      makeSphereOverPlaneScene},
     {"blocker", "a slab above a plane: how sharp a shadow each number of bands can hold",
      makeBlockerScene},
+    {"materials", "ten spheres on a floor, metal and lacquer, from mirrors to matt",
+     makeMaterialsScene},
     {"box", "a closed room seen from inside, where no light may leak in", makeBoxScene},
 }};
 

@@ -114,6 +114,19 @@ TEST(ProceduralScene, KnownAnswersHaveTheirShapes) {
         EXPECT_LE(p.z, 0.0f);
 }
 
+TEST(ProceduralScene, MaterialsGoFromMirrorsToMattInMetalAndLacquer) {
+    const Scene scene = makeProceduralScene("materials");
+    for (const float metallic : {0.0f, 1.0f})
+        for (const float roughness : {0.1f, 0.3f, 0.5f, 0.7f, 1.0f})
+            EXPECT_TRUE(std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                    [&](const Mesh& m) {
+                                        const Material& material = scene.materials[m.material];
+                                        return material.metallicFactor == metallic &&
+                                               material.roughnessFactor == roughness;
+                                    }))
+                << metallic << " " << roughness;
+}
+
 TEST(ProceduralScene, AnUnknownNameListsThoseThereAre) {
     try {
         makeProceduralScene("teapots");
