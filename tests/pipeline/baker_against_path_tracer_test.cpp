@@ -10,6 +10,7 @@
 #include "prt/scene/procedural.h"
 #include "prt/transport/bake.h"
 #include "prt/transport/receivers.h"
+#include "tests/support/chi_square.h"
 #include "tests/support/scenes.h"
 
 namespace prt {
@@ -97,14 +98,6 @@ TransferEstimate tracePaths(const Scene& scene, int bounceCount) {
                             options);
 }
 
-/// Bounds of a χ² variable for a false alarm once in ten thousand on either side
-/// (Wilson and Hilferty's cube root, 3.72 standard deviations).
-std::pair<double, double> chiSquareBand(double freedom) {
-    const double spread = 3.72 * std::sqrt(2.0 / (9.0 * freedom));
-    const double center = 1.0 - 2.0 / (9.0 * freedom);
-    return {freedom * std::pow(center - spread, 3.0), freedom * std::pow(center + spread, 3.0)};
-}
-
 class BakerAgainstPathTracer : public testing::TestWithParam<int> {};
 
 TEST_P(BakerAgainstPathTracer, EveryVertexAndCoefficientAgrees) {
@@ -134,7 +127,7 @@ TEST_P(BakerAgainstPathTracer, EveryVertexAndCoefficientAgrees) {
         }
         // What no single vertex shows, all of them do: a common shift, or a wrong spread.
         EXPECT_LE(std::abs(sum), 4.5 * std::sqrt(count)) << "coefficient " << k;
-        const auto [low, high] = chiSquareBand(count);
+        const auto [low, high] = test::chiSquareBand(count);
         EXPECT_GE(squareSum, low) << "coefficient " << k;
         EXPECT_LE(squareSum, high) << "coefficient " << k;
     }
