@@ -45,8 +45,8 @@ class GltfViewTable {
     int bandCount_;
     std::size_t levelCount_;
     std::size_t viewCount_;
-    std::size_t elementCount_;       // n(n + 1)/2
-    std::vector<Element> elements_;  // [level][view][l(l + 1)/2 + m]
+    std::size_t elementCount_;       // uprightCount
+    std::vector<Element> elements_;  // [level][view][uprightIndex]
 };
 
 }  // namespace prt
