@@ -2,6 +2,7 @@
 //   [Kautz02]  BRDFs as spherical harmonics over incident directions
 #include "prt/transport/reflection.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "prt/base/assert.h"
@@ -25,6 +26,21 @@ Reflection gltfReflection(const Scene& scene, std::shared_ptr<const GltfViewTabl
                                               std::span<float> response) {
         table->addResponse(evaluateAlbedo(scene, point), evaluateMetallicRoughness(scene, point),
                            view, response);
+    };
+}
+
+Reflection brdfReflection(const Scene& scene,
+                          std::vector<std::shared_ptr<const BrdfViewTable>> tables,
+                          std::shared_ptr<const GltfViewTable> gltf) {
+    PRT_ASSERT(tables.size() == scene.materials.size(), "there is a table a material, or null");
+    PRT_ASSERT(gltf || std::find(tables.begin(), tables.end(), nullptr) == tables.end(),
+               "materials that stay have a table too");
+    return [&scene, tables = std::move(tables), ofGltf = gltfReflection(scene, std::move(gltf))](
+               const SurfacePoint& point, const Vec3f& view, std::span<float> response) {
+        if (const auto& table = tables[scene.meshes[point.mesh].material])
+            table->addResponse(view, response);
+        else
+            ofGltf(point, view, response);
     };
 }
 

@@ -3,7 +3,9 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
+#include "prt/brdf/brdf_view_table.h"
 #include "prt/brdf/gltf_view_table.h"
 #include "prt/math/vector.h"
 #include "prt/scene/scene.h"
@@ -36,6 +38,15 @@ Reflection lambertReflection(const Scene& scene);
 /// @param scene  must outlive it; textures decoded
 /// @param table  for the bands of the incident radiance
 Reflection gltfReflection(const Scene& scene, std::shared_ptr<const GltfViewTable> table);
+
+/// Surfaces of other BRDFs than their glTF materials say.
+///
+/// @param scene   must outlive it; textures decoded where a material stays as it is
+/// @param tables  one a material of the scene; null: the material stays as it is
+/// @param gltf    for those that stay; of as many bands
+Reflection brdfReflection(const Scene& scene,
+                          std::vector<std::shared_ptr<const BrdfViewTable>> tables,
+                          std::shared_ptr<const GltfViewTable> gltf = nullptr);
 
 /// f_10 of albedo 1: row (1, 0) of a transfer matrix times this is the diffuse transfer vector
 /// (C6).
