@@ -145,6 +145,11 @@ double firstShare(const Brdf& brdf, const Vec3d& view) {
 
 }  // namespace
 
+bool hasLobes(const Brdf& brdf) {
+    return !std::holds_alternative<std::monostate>(brdf.lobes[0]) ||
+           !std::holds_alternative<std::monostate>(brdf.lobes[1]);
+}
+
 GltfLobes splitGltfMaterial(const Vec3f& baseColor, const MetallicRoughness& surface) {
     const Vec3d color(baseColor);
     const auto metallic = static_cast<double>(surface.metallic);

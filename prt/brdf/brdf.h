@@ -52,6 +52,9 @@ struct Brdf {
     std::array<BrdfLobe, 2> lobes;
 };
 
+/// Whether it is one at all: a black surface has a lobe too.
+bool hasLobes(const Brdf& brdf);
+
 /// The two lobes of a glTF material.
 struct GltfLobes {
     LayeredLambertLobe diffuse;

@@ -147,8 +147,10 @@ PathOrigin placePathOrigin(const Scene& scene, const RayScene& rays, const Hit& 
 
 Brdf findBrdf(const Scene& scene, const SurfacePoint& point, const WalkOptions& options) {
     const bool isGltf = options.surfaceModel == SurfaceModel::gltf;
-    if (isGltf && !options.materialBrdfs.empty())
-        return options.materialBrdfs[scene.meshes[point.mesh].material];
+    if (isGltf && !options.materialBrdfs.empty()) {
+        const Brdf& given = options.materialBrdfs[scene.meshes[point.mesh].material];
+        if (hasLobes(given)) return given;
+    }
     const Vec3f baseColor = evaluateAlbedo(scene, point);
     if (!isGltf) return {.lobes = {LambertLobe{.albedo = Vec3d(baseColor)}}};
     return makeGltfBrdf(baseColor, evaluateMetallicRoughness(scene, point));

@@ -33,7 +33,8 @@ enum class SurfaceModel {
 
 struct WalkOptions {
     SurfaceModel surfaceModel = SurfaceModel::diffuse;
-    /// With the glTF model: BRDFs in place of those of the scene's materials, one a material.
+    /// With the glTF model: BRDFs in place of those of the scene's materials, one a material. Where
+    /// one has no lobe, the material stays as it is.
     std::span<const Brdf> materialBrdfs{};
 
     int bounceCount = kUnlimitedBounces;  ///< indirect bounces (C8)
