@@ -80,6 +80,8 @@ void writeAssets(const SeedFolder& seeds) {
     const prt::Scene scene = prt::test::makeTwoGrids();
     const std::vector<prt::Transport> transports = {prt::Transport::shadowed,
                                                     prt::Transport::interreflected};
+    const std::vector<prt::Transport> glossy = {prt::Transport::glossyShadowed,
+                                                prt::Transport::glossy};
     for (const prt::TransferEncoding encoding :
          {prt::TransferEncoding::float32, prt::TransferEncoding::unorm16,
           prt::TransferEncoding::unorm8}) {
@@ -88,6 +90,10 @@ void writeAssets(const SeedFolder& seeds) {
         const prt::test::ClusterForm form{.weights = encoding, .vectors = encoding};
         writeAsset(seeds, "clusters-" + name, scene,
                    prt::test::makeClusteredTransfer(scene, 2, form, transports));
+        writeAsset(seeds, "matrices-" + name, scene,
+                   prt::test::makeTransfer(scene, 2, encoding, glossy));
+        writeAsset(seeds, "matrix-clusters-" + name, scene,
+                   prt::test::makeClusteredTransfer(scene, 2, form, glossy));
     }
     prt::Scene grid = prt::test::makeTwoGrids();
     grid.meshes = {prt::test::makeGrid("floor", 12, 0.0f)};

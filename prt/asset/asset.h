@@ -32,7 +32,7 @@ struct Asset {
 /// The version of the format that this library writes; it reads all
 /// versions with the same major number.
 inline constexpr int kAssetVersionMajor = 1;
-inline constexpr int kAssetVersionMinor = 1;
+inline constexpr int kAssetVersionMinor = 2;
 
 struct AssetOptions {
     bool meshopt = false;  ///< as GlbOptions::meshopt; all numbers stay as they are

@@ -20,8 +20,9 @@ using gltf::JsonCursor;
 
 // What the coefficients of this format are: outgoing radiance over the receiver's albedo (C6, C7).
 constexpr const char* kQuantity = "outgoingRadianceOverAlbedo";
-// Version 1.0 has no clusters.
+// Version 1.0 has no clusters, and 1.1 no matrices.
 constexpr int kClustersSinceMinor = 1;
+constexpr int kMatricesSinceMinor = 2;
 
 std::string formatVersion() {
     return std::to_string(kAssetVersionMajor) + "." + std::to_string(kAssetVersionMinor);
@@ -48,6 +49,7 @@ std::string computeLayerChecksum(const LayerDescription& description) {
                                      static_cast<std::size_t>(description.bandCount),
                                      description.range.first, description.range.count})
         bytes += " " + std::to_string(number);
+    if (isGlossy(layer.transport)) bytes += " " + std::to_string(layer.incidentBandCount);
     if (layer.bases) bytes += " " + clusterChecksumText(layer, description.vectors);
     bytes += rangeBytes(layer.bases ? layer.bases->vectors : layer.table);
     if (layer.largestError > 0.0f)
@@ -60,6 +62,7 @@ nlohmann::ordered_json describeLayer(const LayerDescription& description) {
     nlohmann::ordered_json object;
     object["transport"] = transportName(layer.transport);
     object["channels"] = layer.channelCount;
+    if (isGlossy(layer.transport)) object["incidentBands"] = layer.incidentBandCount;
     object["encoding"] = encodingText(layer);
     object["attributes"] = {{"first", description.range.first}, {"count", description.range.count}};
     if (layer.bases)
@@ -99,13 +102,16 @@ Provenance parseProvenance(const JsonCursor& object) {
     return provenance;
 }
 
+[[noreturn]] void rejectAsTooNew(const JsonCursor& member, int minorVersion) {
+    member.reject("is none that a file of version 1." + std::to_string(minorVersion) + " can have");
+}
+
 /// The transport and the encodings of a layer; nothing where a newer minor version names one that
 /// is not known here.
 std::optional<CompressedLayer> parseKind(const JsonCursor& object, int minorVersion) {
     const JsonCursor kind = object.at("encoding");
     const bool hasClusters = kind.toString() == kClusters;
-    if (hasClusters && minorVersion < kClustersSinceMinor)
-        kind.reject("is none that a file of version 1.0 can have");
+    if (hasClusters && minorVersion < kClustersSinceMinor) rejectAsTooNew(kind, minorVersion);
     const JsonCursor ofTable = hasClusters ? object.at("clusters").at("weights") : kind;
     const JsonCursor ofVectors = hasClusters ? object.at("clusters").at("encoding") : kind;
     const auto transport = parseTransport(object.at("transport").toString());
@@ -116,12 +122,24 @@ std::optional<CompressedLayer> parseKind(const JsonCursor& object, int minorVers
     if (!transport) object.at("transport").reject("is no kind of transport");
     if (!tableEncoding) ofTable.reject("is no encoding");
     if (!vectorsEncoding) ofVectors.reject("is no encoding");
+    if (isGlossy(*transport) && minorVersion < kMatricesSinceMinor)
+        rejectAsTooNew(object.at("transport"), minorVersion);
 
     CompressedLayer layer;
     layer.transport = *transport;
     layer.table.encoding = *tableEncoding;
     if (hasClusters) layer.bases.emplace().vectors.encoding = *vectorsEncoding;
     return layer;
+}
+
+/// Of a layer of matrices.
+int parseIncidentBands(const JsonCursor& member, int bandCount) {
+    const int largest = kMaxBandCount + 1 - bandCount;
+    const int count = parseCount(member);
+    if (count < 1 || count > largest)
+        member.reject("must be from 1 to " + std::to_string(largest) + " beside " +
+                      std::to_string(bandCount) + " bands of light");
+    return count;
 }
 
 float parseLargestError(const JsonCursor& layer) {
@@ -140,6 +158,8 @@ void parseLayer(const JsonCursor& object, int minorVersion, AssetHeader& header)
     layer.channelCount = parseCount(object.at("channels"));
     if (layer.channelCount != 1 && layer.channelCount != 3)
         object.at("channels").reject("must be 1 or 3");
+    if (isGlossy(layer.transport))
+        layer.incidentBandCount = parseIncidentBands(object.at("incidentBands"), header.bandCount);
     const std::size_t dimension = coefficientsPerReceiver(header.bandCount, layer);
     VectorsPlace vectors;
     if (layer.bases)

@@ -12,7 +12,8 @@
 namespace prt {
 
 /// No number that scale, bias or a float stands for is larger: it is beyond any coefficient that
-/// reflectances up to 1 can give, 1.23 (docs/format.md), and far from where sums overflow.
+/// reflectances up to 1 can give, 1.23 or of matrices 2.18 (docs/format.md), and far from where
+/// sums overflow.
 inline constexpr float kMaxCoefficient = 100.0f;
 
 /// The form of an accessor whose components are stored so.

@@ -63,6 +63,8 @@ void checkTransfer(const Scene& scene, const CompressedTransfer& transfer) {
         "each vertex's receiver is one of the transfer");
     for (const CompressedLayer& layer : transfer.layers) {
         PRT_ASSERT(isComplete(transfer, layer), "each layer has all coefficients of all receivers");
+        PRT_ASSERT(isGlossy(layer.transport) == (layer.incidentBandCount > 0),
+                   "matrices have bands of incident radiance, and vectors have none");
         if (!layer.bases) continue;
         PRT_ASSERT(layer.table.scale.empty(), "weights have no ranges of their own");
         checkClusterCounts(layer);

@@ -64,11 +64,9 @@ inline CompressedTransfer makeTransfer(const Scene& scene, int bandCount, Transf
     CompressedTransfer transfer = makeReceivers(scene, bandCount);
     RandomStream random(7, static_cast<std::uint64_t>(bandCount));
     for (const Transport transport : transports) {
-        CompressedLayer layer;
-        layer.transport = transport;
-        layer.channelCount = transport == Transport::interreflected ? 3 : 1;
+        CompressedLayer layer = makeLayerKind(transport, bandCount);
         layer.table.encoding = encoding;
-        const std::size_t rowLength = coefficientsPerReceiver(bandCount, layer.channelCount);
+        const std::size_t rowLength = coefficientsPerReceiver(bandCount, layer);
         const std::size_t byteCount = bytesPerCoefficient(encoding);
         layer.table.numbers = CoefficientTable(transfer.receiverCount, rowLength, byteCount);
         std::vector<std::byte> row(rowLength * byteCount);
@@ -151,6 +149,8 @@ inline void repairLayer(GlbFile& file, nlohmann::json& layer) {
         layer["transport"].get<std::string>() + " " + layer["encoding"].get<std::string>() + " " +
         layer["channels"].dump() + " " + headerOf(file)["bands"].dump() + " " +
         layer["attributes"]["first"].dump() + " " + layer["attributes"]["count"].dump();
+    const bool isGlossy = layer["transport"].get<std::string>().starts_with("glossy");
+    if (isGlossy && layer.contains("incidentBands")) bytes += " " + layer["incidentBands"].dump();
     const bool hasClusters = layer["encoding"] == "clusters";
     if (hasClusters) bytes += repairClusters(file, layer.at("clusters"));
     const nlohmann::json& ranged = hasClusters ? layer["clusters"] : layer;

@@ -52,6 +52,7 @@ inline bool isSameTransfer(const CompressedTransfer& a, const CompressedTransfer
     for (std::size_t i = 0; i < a.layers.size(); ++i)
         if (a.layers[i].transport != b.layers[i].transport ||
             a.layers[i].channelCount != b.layers[i].channelCount ||
+            a.layers[i].incidentBandCount != b.layers[i].incidentBandCount ||
             a.layers[i].largestError != b.layers[i].largestError ||
             !isSameTable(a.layers[i].table, b.layers[i].table) ||
             !hasSameBases(a.layers[i], b.layers[i]))

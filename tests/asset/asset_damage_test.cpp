@@ -26,32 +26,30 @@ using test::repairChecksums;
 using test::ScratchFolder;
 using Json = nlohmann::json;
 
-/// How the layers of an asset are stored; with clusters, their vectors and weights.
+/// The layers of an asset and how they are stored; with clusters, their vectors and weights.
 struct StorageForm {
     TransferEncoding encoding = TransferEncoding::unorm8;
     std::optional<TransferEncoding> vectors{};
+    std::vector<Transport> transports = {Transport::shadowed, Transport::interreflected};
 };
+const std::vector<Transport> kGlossy = {Transport::glossyShadowed, Transport::glossy};
 
-CompressedTransfer makeStored(const Scene& scene, int bandCount, const StorageForm& form,
-                              const std::vector<Transport>& transports) {
-    if (!form.vectors) return makeTransfer(scene, bandCount, form.encoding, transports);
+CompressedTransfer makeStored(const Scene& scene, int bandCount, const StorageForm& form) {
+    if (!form.vectors) return makeTransfer(scene, bandCount, form.encoding, form.transports);
     return test::makeClusteredTransfer(scene, bandCount, {form.encoding, *form.vectors, {2, 0}},
-                                       transports);
+                                       form.transports);
 }
 
 std::vector<std::byte> makeAssetBytes(const StorageForm& form = {}) {
     const Scene scene = makeTwoGrids();
-    return encodeAsset(scene,
-                       makeStored(scene, 2, form, {Transport::shadowed, Transport::interreflected}),
-                       makeProvenance());
+    return encodeAsset(scene, makeStored(scene, 2, form), makeProvenance());
 }
 
 /// A triangle and one band: so few bytes that each can be changed in every way.
-std::vector<std::byte> makeSmallAssetBytes(const StorageForm& form) {
+std::vector<std::byte> makeSmallAssetBytes(StorageForm form) {
     const Scene scene = test::makeTriangle();
-    std::vector<Transport> transports = {Transport::shadowed, Transport::interreflected};
-    if (form.vectors) transports.pop_back();
-    return encodeAsset(scene, makeStored(scene, 1, form, transports), makeProvenance());
+    if (form.vectors || form.transports == kGlossy) form.transports.pop_back();
+    return encodeAsset(scene, makeStored(scene, 1, form), makeProvenance());
 }
 
 class AssetDamageOfEncoding : public testing::TestWithParam<StorageForm> {};
@@ -99,8 +97,9 @@ TEST_P(AssetDamageOfEncoding, AFlippedBitOfTheJsonIsRefusedOrLeavesTransferAndGe
 }
 
 std::string nameOf(const StorageForm& form) {
-    const std::string name(encodingName(form.encoding));
-    return form.vectors ? name + "_clusters_of_" + std::string(encodingName(*form.vectors)) : name;
+    std::string name(encodingName(form.encoding));
+    if (form.vectors) name += "_clusters_of_" + std::string(encodingName(*form.vectors));
+    return form.transports == kGlossy ? name + "_matrices" : name;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -109,7 +108,9 @@ INSTANTIATE_TEST_SUITE_P(
                     StorageForm{TransferEncoding::unorm8},
                     StorageForm{TransferEncoding::float32, TransferEncoding::unorm16},
                     StorageForm{TransferEncoding::unorm16, TransferEncoding::unorm8},
-                    StorageForm{TransferEncoding::unorm8, TransferEncoding::float32}),
+                    StorageForm{TransferEncoding::unorm8, TransferEncoding::float32},
+                    StorageForm{TransferEncoding::unorm8, std::nullopt, kGlossy},
+                    StorageForm{TransferEncoding::unorm8, TransferEncoding::unorm8, kGlossy}),
     [](const auto& parameter) { return nameOf(parameter.param); });
 
 TEST(AssetDamage, HeadersThatMakeNoSenseAreRefusedEvenWithFittingChecksums) {
@@ -141,7 +142,7 @@ TEST(AssetDamage, HeadersThatMakeNoSenseAreRefusedEvenWithFittingChecksums) {
 TEST(AssetDamage, LayersThatMakeNoSenseAreRefusedEvenWithFittingChecksums) {
     expectEachIsRefused(
         {{"twice", [](GlbFile& f) { layerOf(f, 0)["transport"] = "interreflected"; }, "different"},
-         {"unknown transport", [](GlbFile& f) { layerOf(f, 0)["transport"] = "glossy"; },
+         {"unknown transport", [](GlbFile& f) { layerOf(f, 0)["transport"] = "subsurface"; },
           "transport"},
          {"unknown encoding", [](GlbFile& f) { layerOf(f, 0)["encoding"] = "unorm4"; }, "encoding"},
          {"other encoding", [](GlbFile& f) { layerOf(f, 0)["encoding"] = "unorm16"; }, "form"},
@@ -241,7 +242,7 @@ TEST(AssetVersions, AnotherMajorVersionIsRefusedInASentenceThatNamesBoth) {
     ASSERT_TRUE(refusal);
     EXPECT_EQ(refusal->code(), ErrorCode::unsupported);
     EXPECT_NE(std::string(refusal->what()).find("2.3"), std::string::npos);
-    EXPECT_NE(std::string(refusal->what()).find("1.1"), std::string::npos);
+    EXPECT_NE(std::string(refusal->what()).find("1.2"), std::string::npos);
 }
 
 TEST(AssetVersions, TextThatIsNoVersionIsRefused) {
@@ -264,15 +265,15 @@ TEST(AssetVersions, ANewerMinorVersionIsReadAndWhatItAddsIsPassedOver) {
     header["version"] = "1.7";
     header["novelty"] = {1, 2, 3};
     header["layers"][1]["novelty"] = true;
-    Json glossy = header["layers"][1];
-    glossy["transport"] = "glossy";
-    header["layers"].push_back(glossy);
+    Json unknown = header["layers"][1];
+    unknown["transport"] = "subsurface";
+    header["layers"].push_back(unknown);
     repairChecksums(file);
     Asset asset;
     ASSERT_FALSE(refusalOf(test::joinGlb(file), &asset));
     EXPECT_TRUE(isSameTransfer(asset.transfer, original.transfer));
 
-    header["layers"] = {glossy};
+    header["layers"] = {unknown};
     EXPECT_TRUE(refusalOf(test::joinGlb(file)));
 }
 

@@ -15,7 +15,8 @@ using test::makeTwoGrids;
 using test::ScratchFolder;
 
 constexpr std::array kTransports = {Transport::unshadowed, Transport::shadowed,
-                                    Transport::interreflected};
+                                    Transport::interreflected, Transport::glossyShadowed,
+                                    Transport::glossy};
 constexpr std::array kEncodings = {TransferEncoding::float32, TransferEncoding::unorm16,
                                    TransferEncoding::unorm8};
 
@@ -46,6 +47,7 @@ void expectSameTransfer(const CompressedTransfer& read, const CompressedTransfer
     for (std::size_t i = 0; i < read.layers.size(); ++i) {
         EXPECT_EQ(read.layers[i].transport, written.layers[i].transport);
         EXPECT_EQ(read.layers[i].channelCount, written.layers[i].channelCount);
+        EXPECT_EQ(read.layers[i].incidentBandCount, written.layers[i].incidentBandCount);
         EXPECT_EQ(read.layers[i].table.encoding, written.layers[i].table.encoding);
         EXPECT_EQ(read.layers[i].table.scale, written.layers[i].table.scale);
         EXPECT_EQ(read.layers[i].table.bias, written.layers[i].table.bias);
@@ -61,7 +63,7 @@ TEST(Asset, EveryCombinationOfLayersComesBackBitForBit) {
     const ScratchFolder folder;
     const std::filesystem::path path = folder.path() / "grids.prt.glb";
     for (const TransferEncoding encoding : kEncodings)
-        for (unsigned bits = 1; bits < 8; ++bits)
+        for (unsigned bits = 1; bits < 32; ++bits)
             for (const int bandCount : {1, 3, 10}) {
                 SCOPED_TRACE(testing::Message() << encodingName(encoding) << ", layers " << bits
                                                 << ", bands " << bandCount);
@@ -146,11 +148,12 @@ TEST(Asset, CoefficientsStandWhereTheFormatSays) {
     const Scene scene = makeTwoGrids();
     const std::vector<std::size_t> offsets = vertexOffsets(scene);
     for (const TransferEncoding encoding : kEncodings) {
-        const CompressedTransfer transfer = makeTransfer(scene, 3, encoding, combination(6));
+        const CompressedTransfer transfer = makeTransfer(scene, 2, encoding, combination(30));
         GlbFile file = test::splitGlb(encodeAsset(scene, transfer, makeProvenance()));
-        for (std::size_t layer = 0; layer < 2; ++layer) {
+        for (std::size_t layer = 0; layer < 4; ++layer) {
             const std::vector<float> values = expandLayer(transfer.layers[layer]);
-            const std::size_t rowLength = layer == 0 ? 9 : 27;
+            // Of the matrices, 9 and 4 coefficients of incident radiance.
+            const std::size_t rowLength = std::array{4, 3 * 4, 9 * 4, 3 * 4 * 4}[layer];
             for (std::size_t mesh = 0; mesh < 2; ++mesh)
                 for (std::size_t v = 0; v < scene.meshes[mesh].vertexCount(); ++v)
                     for (std::size_t i = 0; i < rowLength; ++i) {

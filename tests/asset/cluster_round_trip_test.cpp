@@ -57,7 +57,8 @@ TEST(AssetWithClusters, EveryFormComesBackBitForBit) {
                                  << " clusters, " << bandCount << " bands");
                     const CompressedTransfer transfer =
                         makeClusteredTransfer(scene, bandCount, {weights, vectors, componentCounts},
-                                              {Transport::unshadowed, Transport::interreflected});
+                                              {Transport::unshadowed, Transport::interreflected,
+                                               Transport::glossyShadowed, Transport::glossy});
                     EXPECT_TRUE(isSameTransfer(writeAndRead(scene, transfer).transfer,
                                                spreadOverVertices(transfer)));
                 }

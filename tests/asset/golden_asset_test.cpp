@@ -112,6 +112,20 @@ CompressedTransfer makeGoldenClusters(TransferEncoding encoding) {
     return transfer;
 }
 
+/// Version 1.2: and matrices, of 3 and of 2 bands of incident radiance, the second in clusters.
+CompressedTransfer makeGoldenMatrices(TransferEncoding encoding) {
+    CompressedTransfer transfer = makeGoldenClusters(encoding);
+    CompressedLayer shadowed{.transport = Transport::glossyShadowed, .incidentBandCount = 3};
+    shadowed.table = makeGoldenTable(encoding, kVertexCount, 9 * 4);
+    CompressedLayer glossy = transfer.layers[1];
+    glossy.transport = Transport::glossy;
+    glossy.incidentBandCount = 2;
+    glossy.bases->vectors = makeGoldenTable(encoding, kVectorCount, 3 * 4 * 4);
+    transfer.layers.push_back(std::move(shadowed));
+    transfer.layers.push_back(std::move(glossy));
+    return transfer;
+}
+
 /// A coefficient of a layer with those clusters.
 double coefficientOfClusters(TransferEncoding encoding, std::size_t vertex, std::size_t column) {
     const std::size_t cluster = vertex % 3;
@@ -153,10 +167,25 @@ Asset readGolden(const std::string& version, TransferEncoding encoding) {
 void expectCoefficients(const CompressedLayer& layer, TransferEncoding encoding) {
     EXPECT_EQ(layer.table.encoding, encoding);
     const std::vector<float> values = expandLayer(layer);
-    const std::size_t columnCount = coefficientsPerReceiver(kBandCount, layer.channelCount);
+    const std::size_t columnCount = coefficientsPerReceiver(kBandCount, layer);
     ASSERT_EQ(values.size(), kVertexCount * columnCount);
     for (std::size_t i = 0; i < values.size(); ++i)
         EXPECT_EQ(values[i], coefficient(encoding, i / columnCount, i % columnCount)) << i;
+}
+
+void expectClusters(const CompressedLayer& layer, TransferEncoding encoding) {
+    // expandLayer rounds weights, vectors and their sum to floats.
+    constexpr double kRounding = 3e-7;
+    ASSERT_TRUE(layer.bases);
+    EXPECT_EQ(layer.table.encoding, encoding);
+    EXPECT_EQ(layer.bases->vectors.encoding, encoding);
+    const std::vector<float> values = expandLayer(layer);
+    const std::size_t columnCount = coefficientsPerReceiver(kBandCount, layer);
+    ASSERT_EQ(values.size(), kVertexCount * columnCount);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_NEAR(values[i], coefficientOfClusters(encoding, i / columnCount, i % columnCount),
+                    kRounding)
+            << i;
 }
 
 class GoldenAsset : public testing::TestWithParam<TransferEncoding> {};
@@ -169,19 +198,26 @@ TEST_P(GoldenAsset, OfVersion10IsRead) {
 }
 
 TEST_P(GoldenAsset, OfVersion11IsRead) {
-    // expandLayer rounds weights, vectors and their sum to floats.
-    constexpr double kRounding = 2e-7;
     const Asset asset = readGolden("1.1", GetParam());
     ASSERT_EQ(asset.transfer.layers.size(), 2u);
     expectCoefficients(asset.transfer.layers[0], GetParam());
-    const CompressedLayer& layer = asset.transfer.layers[1];
-    ASSERT_TRUE(layer.bases);
-    EXPECT_EQ(layer.table.encoding, GetParam());
-    EXPECT_EQ(layer.bases->vectors.encoding, GetParam());
-    const std::vector<float> values = expandLayer(layer);
-    ASSERT_EQ(values.size(), kVertexCount * 12);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        EXPECT_NEAR(values[i], coefficientOfClusters(GetParam(), i / 12, i % 12), kRounding) << i;
+    expectClusters(asset.transfer.layers[1], GetParam());
+}
+
+TEST_P(GoldenAsset, OfVersion12IsRead) {
+    const Asset asset = readGolden("1.2", GetParam());
+    const std::vector<CompressedLayer>& layers = asset.transfer.layers;
+    ASSERT_EQ(layers.size(), 4u);
+    expectCoefficients(layers[0], GetParam());
+    expectClusters(layers[1], GetParam());
+    EXPECT_EQ(layers[2].transport, Transport::glossyShadowed);
+    EXPECT_EQ(layers[2].channelCount, 1);
+    EXPECT_EQ(layers[2].incidentBandCount, 3);
+    expectCoefficients(layers[2], GetParam());
+    EXPECT_EQ(layers[3].transport, Transport::glossy);
+    EXPECT_EQ(layers[3].channelCount, 3);
+    EXPECT_EQ(layers[3].incidentBandCount, 2);
+    expectClusters(layers[3], GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GoldenAsset,
@@ -197,7 +233,7 @@ TEST(GoldenAssets, DISABLED_WriteTheFilesOfThisVersion) {
     for (const TransferEncoding encoding :
          {TransferEncoding::float32, TransferEncoding::unorm16, TransferEncoding::unorm8})
         writeAsset(goldenPath(version, encoding), test::makeTwoGrids(),
-                   makeGoldenClusters(encoding), test::makeProvenance());
+                   makeGoldenMatrices(encoding), test::makeProvenance());
 }
 
 }  // namespace

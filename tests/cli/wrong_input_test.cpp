@@ -238,7 +238,7 @@ TEST_F(WrongOutput, AnotherFormatThanTheSuffixSaysIsNotWritten) {
 TEST_F(WrongOutput, AnAssetOfAnotherVersionIsRefused) {
     ASSERT_EQ(runPrt(folder, bakeTo("out.prt.glb")).exitCode, 0);
     std::string bytes = readText(folder.path() / "out.prt.glb");
-    const std::size_t place = bytes.find(R"("version":"1.1")");
+    const std::size_t place = bytes.find(R"("version":"1.2")");
     ASSERT_NE(place, std::string::npos);
     bytes.replace(place, 15, R"("version":"9.0")");
     writeText(folder.path() / "out.prt.glb", bytes);

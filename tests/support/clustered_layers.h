@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -7,9 +8,22 @@
 #include <vector>
 
 #include "prt/base/random.h"
+#include "prt/basis/sh.h"
 #include "prt/transfer/compressed_transfer.h"
 
 namespace prt::test {
+
+/// A layer without numbers, its channels and bands of incident radiance as a bake may choose them.
+inline CompressedLayer makeLayerKind(Transport transport, int bandCount) {
+    CompressedLayer layer;
+    layer.transport = transport;
+    const bool isColored = transport == Transport::interreflected || transport == Transport::glossy;
+    layer.channelCount = isColored ? 3 : 1;
+    if (isGlossy(transport))
+        layer.incidentBandCount =
+            std::min(transport == Transport::glossy ? 2 : 3, kMaxBandCount + 1 - bandCount);
+    return layer;
+}
 
 /// How the clusters of a layer are stored, and how many components each has.
 struct ClusterForm {
@@ -52,15 +66,13 @@ inline StoredTable makeRandomTable(TransferEncoding encoding, std::size_t rowCou
 inline CompressedLayer makeClusteredLayer(Transport transport, int bandCount,
                                           std::size_t receiverCount, const ClusterForm& form,
                                           std::uint64_t seed = 1) {
-    CompressedLayer layer;
-    layer.transport = transport;
-    layer.channelCount = transport == Transport::interreflected ? 3 : 1;
+    CompressedLayer layer = makeLayerKind(transport, bandCount);
     layer.largestError = 0.0123f;
     RandomStream random(seed, 41);
     ClusterBases& bases = layer.bases.emplace();
     bases.componentCounts = form.componentCounts;
     bases.vectors = makeRandomTable(form.vectors, bases.firstVectors().back(),
-                                    coefficientsPerReceiver(bandCount, layer.channelCount), random);
+                                    coefficientsPerReceiver(bandCount, layer), random);
 
     const std::size_t width = bytesPerCoefficient(form.weights);
     layer.table.encoding = form.weights;
