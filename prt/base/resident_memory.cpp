@@ -4,6 +4,10 @@
 
 #include <fstream>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace prt {
 
 std::uint64_t residentBytes() {
@@ -11,6 +15,12 @@ std::uint64_t residentBytes() {
     std::uint64_t residentPages = 0;
     std::ifstream("/proc/self/statm") >> totalPages >> residentPages;
     return residentPages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void releaseFreeMemory() {
+#ifdef __GLIBC__
+    ::malloc_trim(0);
+#endif
 }
 
 }  // namespace prt

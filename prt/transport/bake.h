@@ -12,6 +12,7 @@
 #include "prt/scene/scene.h"
 #include "prt/transfer/transfer_field.h"
 #include "prt/transport/checkpoint.h"
+#include "prt/transport/reflection.h"
 
 namespace prt {
 
@@ -24,7 +25,7 @@ struct CheckpointOptions {
     std::filesystem::path folder{};                     ///< made if missing; empty: nothing is kept
     std::vector<std::filesystem::path> otherFolders{};  ///< units are read from these too
     bool requireFronts = false;  ///< the units that bakeUnits makes must be there: for merging
-    /// What made the scene what it is, and which program bakes: a resume
+    /// What made the scene what it is and the reflection, and which program bakes: a resume
     /// with other settings is refused by their names.
     std::vector<Setting> callerSettings{};
 };
@@ -32,17 +33,22 @@ struct CheckpointOptions {
 /// What a bake takes, told before its long part begins.
 struct BakeForecast {
     std::size_t receiverCount = 0;
-    std::uint64_t rayCount = 0;
+    std::uint64_t rayCount = 0;   ///< as if endless bounces of glossy light were ten
     std::size_t memoryBytes = 0;  ///< of the whole process
     std::size_t diskBytes = 0;    ///< for a checkpoint, and for what has no room in memory
     std::size_t unitCount = 0;    ///< that bakeUnits can make; 0 without a checkpoint
 };
 
 struct BakeOptions {
-    Transport transport = Transport::interreflected;  ///< the layers up to this one are baked
-    int bandCount = 5;                                ///< 1 … kMaxBandCount
-    int sampleCount = 1024;                           ///< rays a receiver, 16 … 65536
-    int bounceCount = 2;  ///< indirect bounces (C8), or kInfiniteBounces
+    /// With unshadowed that layer alone; with glossyShadowed shadowed transfer too; else all but
+    /// unshadowed up to this one.
+    Transport transport = Transport::interreflected;
+    int bandCount = 5;          ///< n: 1 … kMaxBandCount
+    int incidentBandCount = 5;  ///< n_in ≥ 1 of matrices, n_in + n − 1 ≤ kMaxBandCount
+    int sampleCount = 1024;     ///< rays a receiver, 16 … 65536
+    int bounceCount = 2;        ///< indirect bounces (C8), or kInfiniteBounces
+    /// Of the surfaces, where light bounces into matrices; empty: gltfReflection.
+    Reflection reflection{};
     std::uint64_t seed = 1;
     int threadCount = 0;  ///< 0: one a core
     /// What the process may have in all; hits and transfer beyond it go to disk, without changing
@@ -62,23 +68,24 @@ struct BakeStats {
     double traceSeconds =
         0.0;  ///< occlusion rays, their directions and the closest hits, all threads' sum / threads
     double accumulateSeconds = 0.0;  ///< spherical harmonics of the visible directions, likewise
-    double bounceSeconds = 0.0;
+    double bounceSeconds = 0.0;      ///< without the rays that are traced for them
     std::uint64_t rayCount = 0;
     std::uint64_t hitCount = 0;
     std::uint64_t invalidRayCount = 0;  ///< rays that were not finite, and so counted as blocked
     std::size_t receiverCount = 0;
-    int bounceCount = 0;                  ///< bounces made
+    int bounceCount = 0;                  ///< bounces made, of vectors or matrices
     std::size_t hitBytes = 0;             ///< the bounce matrix
     std::size_t resumedUnitCount = 0;     ///< units of rays that a checkpoint had
     std::vector<std::string> warnings{};  ///< files of a checkpoint that were damaged
     Isa isa = Isa::sse4;
 };
 
-/// Bakes the diffuse transfer of every vertex of a scene, once for any distant light.
+/// Bakes the transfer of every vertex of a scene, once for any distant light.
 ///
-/// Rays are traced once, whatever the number of bounces: a bounce multiplies the transfer of all
-/// receivers by the sparse matrix of the rays' hits [Sloan02, 5; docs/architecture.md, "Bounces are
-/// a sparse matrix"].
+/// Rays of vectors are traced once, whatever the number of bounces: a bounce multiplies the
+/// transfer of all receivers by the sparse matrix of the rays' hits [Sloan02, 5;
+/// docs/architecture.md, "Bounces are a sparse matrix"]. Matrices are gathered after them
+/// (TransferMatrices), with rays of their own for each bounce.
 ///
 /// @param scene    as its reader promises; textures decoded
 /// @param options  ranges as stated; out of range is an Error{invalidOption}
@@ -105,8 +112,8 @@ struct UnitReport {
 /// Makes a share of a bake's units into the folder of a checkpoint, for machines that work side by
 /// side: bakeTransfer with the same options then makes the rest, or puts all together.
 ///
-/// A unit is the rays of some receivers' fronts. A unit that is made twice, or by two at once, is
-/// the same.
+/// Not of glossy transport. A unit is the rays of some receivers' fronts. A unit that is made
+/// twice, or by two at once, is the same.
 ///
 /// @param units   those beyond the last are none
 /// @throws Error  as bakeTransfer

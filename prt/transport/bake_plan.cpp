@@ -47,17 +47,6 @@ Pilot flyPilot(const GatherScene& scene, const BakeOptions& options, Isa isa) {
     return pilot;
 }
 
-/// Receivers that have another side: if any back is met, all may be.
-std::size_t countDoubleSided(const GatherScene& scene) {
-    std::vector<bool> doubleSided(scene.receivers.fronts.size());
-    const std::vector<std::size_t> offsets = vertexOffsets(scene.scene);
-    for (std::size_t mesh = 0; mesh < scene.scene.meshes.size(); ++mesh)
-        if (scene.scene.materials[scene.scene.meshes[mesh].material].doubleSided)
-            for (std::size_t vertex = offsets[mesh]; vertex < offsets[mesh + 1]; ++vertex)
-                doubleSided[scene.receivers.frontOfVertex[vertex]] = true;
-    return static_cast<std::size_t>(std::count(doubleSided.begin(), doubleSided.end(), true));
-}
-
 /// What the threads hold of the units they work at: rows grow by doubling, and are laid out as a
 /// file, twice.
 std::size_t bytesAtWork(const BakeOptions& options, std::size_t unitBytes) {
@@ -70,30 +59,32 @@ std::size_t bytesAtWork(const BakeOptions& options, std::size_t unitBytes) {
 /// What the transfer of all receivers takes.
 struct TransferBytes {
     std::size_t tables = 0;  ///< before and after the bounces, and of the bounce at work
+    std::size_t layers = 0;  ///< those that stay
     std::size_t block = 0;   ///< some columns of it that a bounce gathers from
     std::size_t blockCount = 0;
     std::size_t panel = 0;  ///< four columns: what reading a table on disk brings into memory
     std::size_t units = 0;  ///< in the files of a checkpoint
+
+    /// A bounce gathers from at least a block of columns, and adds a panel to another.
+    std::size_t least() const { return block + 2 * panel; }
 };
 
 /// @param receivers  fronts, and backs if light comes from any
 TransferBytes countTransferBytes(const BakeOptions& options, std::size_t fronts,
                                  std::size_t receivers) {
-    const auto tableBytes = [](std::size_t rows, std::size_t columns) {
-        return rows * CoefficientTable::countPanels(columns) * CoefficientTable::kPanelWidth *
-               sizeof(float);
-    };
     const auto n = static_cast<std::size_t>(shCoefficientCount(options.bandCount));
     TransferBytes bytes;
-    bytes.tables = tableBytes(receivers, n);
-    bytes.panel = tableBytes(receivers, 1);
+    bytes.tables = countTableBytes(receivers, n);
+    bytes.panel = countTableBytes(receivers, 1);
     bytes.units = bytes.tables;
-    if (options.transport != Transport::interreflected) return bytes;
-    bytes.tables += tableBytes(fronts, 3 * n) + tableBytes(receivers, 3 * n);
+    bytes.layers = countTableBytes(fronts, n);
+    if (!hasBounces(options.transport)) return bytes;
+    bytes.layers += countTableBytes(fronts, 3 * n);
+    bytes.tables += countTableBytes(fronts, 3 * n) + countTableBytes(receivers, 3 * n);
     bytes.block = receivers * kLaneMultiple * sizeof(float);
     bytes.blockCount = padToLanes(3 * n) / kLaneMultiple;
-    bytes.units +=
-        static_cast<std::size_t>(std::max(options.bounceCount, 0)) * tableBytes(receivers, 3 * n);
+    bytes.units += static_cast<std::size_t>(std::max(options.bounceCount, 0)) *
+                   countTableBytes(receivers, 3 * n);
     return bytes;
 }
 
@@ -110,34 +101,33 @@ std::size_t defaultMemoryBytes(const Scene& scene) {
     return bytes;
 }
 
-/// Divides the memory. Sets the forecast's memory and disk.
+/// Divides the memory while vectors are made. Sets what they take.
 ///
-/// @param fixedBytes  what the bake holds whatever the plan
-MemoryPlan divideMemory(const Scene& scene, const BakeOptions& options, std::size_t fixedBytes,
-                        const TransferBytes& transfer, std::size_t hitBytes,
-                        BakeForecast& forecast) {
-    // A bounce gathers from at least a block of columns, and adds a panel to another.
-    const std::size_t leastBytes = fixedBytes + transfer.block + 2 * transfer.panel;
-    const std::size_t allowedBytes = std::max(
-        leastBytes, options.memoryBytes > 0 ? options.memoryBytes : defaultMemoryBytes(scene));
-
+/// @param allowedBytes  of the whole process
+/// @param fixedBytes    what the bake holds whatever the plan
+/// @param layerRoom     what layers may hold for as long as the bake lasts
+MemoryPlan divideMemory(const BakeOptions& options, std::size_t allowedBytes,
+                        std::size_t fixedBytes, std::size_t layerRoom,
+                        const TransferBytes& transfer, std::size_t hitBytes, BytesTaken& taken) {
     MemoryPlan plan;
-    std::size_t leftBytes = allowedBytes - leastBytes;
+    std::size_t leftBytes = allowedBytes - fixedBytes - transfer.least();
     if (transfer.block > 0) {
         const std::size_t moreBlocks =
             std::min(transfer.blockCount - 1, leftBytes / 2 / transfer.block);
         plan.blocksAtOnce = 1 + moreBlocks;
         leftBytes -= moreBlocks * transfer.block;
     }
-    plan.tables = {transfer.tables > leftBytes, options.scratchFolder};
+    plan.tables = {transfer.tables > leftBytes || transfer.layers > layerRoom,
+                   options.scratchFolder};
     if (!plan.tables.onDisk) leftBytes -= transfer.tables;
     plan.hitBytes = leftBytes;
 
     const std::size_t hitsInMemory = std::min(hitBytes, leftBytes);
     const bool toFiles = !options.checkpoint.folder.empty();
-    forecast.memoryBytes = allowedBytes - leftBytes + hitsInMemory;
-    forecast.diskBytes = (plan.tables.onDisk ? transfer.tables : 0) +
-                         (toFiles ? hitBytes + transfer.units : hitBytes - hitsInMemory);
+    taken.memory = allowedBytes - leftBytes + hitsInMemory;
+    taken.scratch =
+        (plan.tables.onDisk ? transfer.tables : 0) + (toFiles ? 0 : hitBytes - hitsInMemory);
+    taken.files = toFiles ? hitBytes + transfer.units : 0;
     return plan;
 }
 
@@ -145,7 +135,7 @@ MemoryPlan divideMemory(const Scene& scene, const BakeOptions& options, std::siz
 
 GatherOptions gatherOptionsOf(const BakeOptions& options) {
     return {options.bandCount, padToLanes(static_cast<std::size_t>(options.sampleCount)),
-            options.seed, options.transport == Transport::interreflected};
+            options.seed, hasBounces(options.transport)};
 }
 
 std::size_t receiversPerUnit(std::size_t receiverCount, std::size_t sampleCount, bool inFiles) {
@@ -158,6 +148,20 @@ std::size_t receiversPerUnit(std::size_t receiverCount, std::size_t sampleCount,
     const std::size_t rays =
         std::clamp(receiverCount * sampleCount / kUnitCountAim, kRaysPerUnit, kMaxRaysPerUnit);
     return std::max<std::size_t>(rays / sampleCount, 1);
+}
+
+bool hasBounces(Transport transport) {
+    return transport == Transport::interreflected || transport == Transport::glossy;
+}
+
+std::size_t countDoubleSided(const GatherScene& scene) {
+    std::vector<bool> doubleSided(scene.receivers.fronts.size());
+    const std::vector<std::size_t> offsets = vertexOffsets(scene.scene);
+    for (std::size_t mesh = 0; mesh < scene.scene.meshes.size(); ++mesh)
+        if (scene.scene.materials[scene.scene.meshes[mesh].material].doubleSided)
+            for (std::size_t vertex = offsets[mesh]; vertex < offsets[mesh + 1]; ++vertex)
+                doubleSided[scene.receivers.frontOfVertex[vertex]] = true;
+    return static_cast<std::size_t>(std::count(doubleSided.begin(), doubleSided.end(), true));
 }
 
 BakePlan planBake(const GatherScene& scene, const BakeOptions& options, Isa isa,
@@ -185,13 +189,33 @@ BakePlan planBake(const GatherScene& scene, const BakeOptions& options, Isa isa,
         forecast.diskBytes = gathered * rowBytes;
         return plan;
     }
-    const std::size_t gathered = fronts + (pilot.meetsBacks ? countDoubleSided(scene) : 0);
-    // Tables have room for all backs as soon as there is one.
+    const std::size_t seenBacks = pilot.meetsBacks ? countDoubleSided(scene) : 0;
+    // Tables of vectors have room for all backs as soon as there is one.
     const std::size_t receivers = pilot.meetsBacks ? 2 * fronts : fronts;
-    forecast.rayCount = gathered * sampleCount;
-    plan.memory =
-        divideMemory(scene.scene, options, fixedBytes,
-                     countTransferBytes(options, fronts, receivers), gathered * rowBytes, forecast);
+    const TransferBytes transfer = countTransferBytes(options, fronts, receivers);
+    const MatrixBytes matrices = countMatrixBytes(options, fronts, seenBacks);
+    const std::size_t allowedBytes =
+        std::max({fixedBytes + transfer.least(), fixedBytes + matrices.least(),
+                  options.memoryBytes > 0 ? options.memoryBytes : defaultMemoryBytes(scene.scene)});
+
+    BytesTaken forVectors;
+    plan.memory = divideMemory(options, allowedBytes, fixedBytes,
+                               allowedBytes - fixedBytes - matrices.least(), transfer,
+                               (fronts + seenBacks) * rowBytes, forVectors);
+    const bool layersOnDisk = plan.memory.tables.onDisk;
+    BytesTaken forMatrices;
+    plan.matrices = divideMatrixMemory(
+        options, matrices, allowedBytes - fixedBytes - (layersOnDisk ? 0 : transfer.layers),
+        forMatrices);
+    if (isGlossy(options.transport)) {
+        forMatrices.memory += fixedBytes + (layersOnDisk ? 0 : transfer.layers);
+        forMatrices.scratch += layersOnDisk ? transfer.layers : 0;
+    }
+    forecast.rayCount = (fronts + seenBacks) * sampleCount +
+                        countMatrixRays(options, matrices, plan.matrices, sampleCount);
+    forecast.memoryBytes = std::max(forVectors.memory, forMatrices.memory);
+    forecast.diskBytes =
+        std::max(forVectors.scratch, forMatrices.scratch) + forVectors.files + forMatrices.files;
     return plan;
 }
 

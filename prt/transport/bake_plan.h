@@ -7,8 +7,12 @@
 #include "prt/transfer/coefficient_table.h"
 #include "prt/transport/bake.h"
 #include "prt/transport/gather.h"
+#include "prt/transport/matrix_plan.h"
 
 namespace prt {
+
+/// Whether light bounces from surface to surface.
+bool hasBounces(Transport transport);
 
 /// The options of the gather that a bake asks for.
 GatherOptions gatherOptionsOf(const BakeOptions& options);
@@ -18,6 +22,9 @@ GatherOptions gatherOptionsOf(const BakeOptions& options);
 /// @param inFiles  whether their work is kept in a file: then half a million rays, which takes a
 ///                 core a tenth of a second, and more where there would be ten thousands of files
 std::size_t receiversPerUnit(std::size_t receiverCount, std::size_t sampleCount, bool inFiles);
+
+/// Receivers that have another side: if any back is met, all may be.
+std::size_t countDoubleSided(const GatherScene& scene);
 
 /// How a bake divides the memory it may use; what has no room goes to disk.
 struct MemoryPlan {
@@ -29,6 +36,7 @@ struct MemoryPlan {
 struct BakePlan {
     BakeForecast forecast;
     MemoryPlan memory;
+    MatrixPlan matrices;
 };
 
 /// Foresees what a bake takes, from what the rays of one receiver in a thousand meet, and divides

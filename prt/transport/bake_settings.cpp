@@ -27,24 +27,30 @@ std::string fingerprintGeometry(const Scene& scene) {
     return fingerprint.hex();
 }
 
+void addTexture(const std::optional<TextureUse>& texture, Fingerprint& fingerprint) {
+    fingerprint.add(texture.has_value());
+    if (!texture) return;
+    fingerprint.add(static_cast<std::uint64_t>(texture->image));
+    fingerprint.add(texture->uvSet);
+    fingerprint.add(texture->wrapU);
+    fingerprint.add(texture->wrapV);
+    fingerprint.add(texture->filter);
+}
+
 /// What the bake reads of materials: names and emission change none of its bits.
-std::string fingerprintMaterials(const Scene& scene) {
+std::string fingerprintMaterials(const Scene& scene, bool isGlossy) {
     Fingerprint fingerprint;
     for (const Material& material : scene.materials) {
         for (int channel = 0; channel < 4; ++channel)
             fingerprint.add(material.baseColorFactor[channel]);
-        fingerprint.add(material.baseColorTexture.has_value());
-        if (material.baseColorTexture) {
-            const TextureUse& use = *material.baseColorTexture;
-            fingerprint.add(static_cast<std::uint64_t>(use.image));
-            fingerprint.add(use.uvSet);
-            fingerprint.add(use.wrapU);
-            fingerprint.add(use.wrapV);
-            fingerprint.add(use.filter);
-        }
+        addTexture(material.baseColorTexture, fingerprint);
         fingerprint.add(material.alphaMode);
         fingerprint.add(material.alphaCutoff);
         fingerprint.add(material.doubleSided);
+        if (!isGlossy) continue;
+        fingerprint.add(material.metallicFactor);
+        fingerprint.add(material.roughnessFactor);
+        addTexture(material.metallicRoughnessTexture, fingerprint);
     }
     return fingerprint.hex();
 }
@@ -92,10 +98,12 @@ std::vector<Setting> bakeSettings(const Scene& scene, const BakeOptions& options
         {"isa", std::string(isaName(isa))},
         {"tracer", rayTracerName()},
     };
+    if (isGlossy(options.transport))
+        settings.push_back({"incident-bands", std::to_string(options.incidentBandCount)});
     const std::vector<Setting>& more = options.checkpoint.callerSettings;
     settings.insert(settings.end(), more.begin(), more.end());
     settings.push_back({"geometry", fingerprintGeometry(scene)});
-    settings.push_back({"materials", fingerprintMaterials(scene)});
+    settings.push_back({"materials", fingerprintMaterials(scene, isGlossy(options.transport))});
     settings.push_back({"textures", fingerprintTextures(scene)});
     return settings;
 }
@@ -103,6 +111,8 @@ std::vector<Setting> bakeSettings(const Scene& scene, const BakeOptions& options
 void applyBakeSettings(std::span<const Setting> settings, BakeOptions& options) {
     options.transport = readChoice<Transport>(settings, "transport", parseTransport);
     options.bandCount = readNumber<int>(settings, "bands");
+    if (isGlossy(options.transport))
+        options.incidentBandCount = readNumber<int>(settings, "incident-bands");
     options.sampleCount = readNumber<int>(settings, "samples");
     options.bounceCount = findSetting(settings, "bounces") == kInfinite
                               ? kInfiniteBounces

@@ -24,16 +24,12 @@ std::size_t countCoefficients(int bandCount) {
 MatrixGatherer::MatrixGatherer(const MatrixGatherScene& shared)
     : shared_(shared),
       rowCount_(countCoefficients(shared.visibilityMatrix.incidentBandCount())),
-      columnCount_(countCoefficients(shared.visibilityMatrix.bandCount())),
       rays_(shared.pattern.reversedX.size()),
       visibility_(countCoefficients(shared.visibilityMatrix.visibilityBandCount())),
       scratch_(shared.visibilityMatrix.elementCount()),
-      stride_(padToLanes(columnCount_)),
       response_(kChannelCount * rowCount_),
       cornerResponse_(kChannelCount * rowCount_),
-      radiance_(kChannelCount * stride_),
-      basis_(rowCount_),
-      reflected_(kChannelCount * rowCount_ * stride_) {
+      basis_(rowCount_) {
     firstTriangle_.push_back(0);
     for (const Mesh& mesh : shared.scene.scene.meshes)
         firstTriangle_.push_back(firstTriangle_.back() + mesh.triangleCount());
@@ -74,54 +70,72 @@ void MatrixGatherer::findHits() {
     counts_.hitCount += hits_.size();
 }
 
-void MatrixGatherer::addReflected(std::uint32_t receiver, std::span<const float> sources,
+bool MatrixGatherer::reflects(const Hit& hit) const {
+    if (hit.escaped) return false;  // not finite, or lost between the two queries: dark
+    const Scene& scene = shared_.scene.scene;
+    const Mesh& mesh = scene.meshes[hit.point.mesh];
+    return !hit.backFace || scene.materials[mesh.material].doubleSided;  // C11
+}
+
+const std::array<std::uint32_t, 3>& MatrixGatherer::frontsAt(const Hit& hit) const {
+    return shared_.scene.receivers
+        .frontsOfTriangle[firstTriangle_[hit.point.mesh] + hit.point.triangle];
+}
+
+void MatrixGatherer::appendBacksMet(std::vector<std::uint32_t>& backs) {
+    findHits();
+    for (const Hit& hit : hits_)
+        if (hit.backFace && reflects(hit))
+            backs.insert(backs.end(), frontsAt(hit).begin(), frontsAt(hit).end());
+}
+
+void MatrixGatherer::addReflected(std::uint32_t receiver, const MatrixSources& sources,
                                   std::span<float> matrix) {
-    PRT_ASSERT(matrix.size() == kChannelCount * rowCount_ * columnCount_, "one matrix a channel");
+    const std::size_t columnCount = sources.columns.count();
+    PRT_ASSERT(matrix.size() == kChannelCount * rowCount_ * columnCount, "one matrix a channel");
     findHits();
     const Stopwatch watch(counts_.accumulateSeconds);
     const Frame<float> frame =
         frameFromNormal(receiverSite(shared_.scene.receivers, receiver).normal);
-    const std::size_t channelSize = rowCount_ * stride_;
-    std::fill(reflected_.begin(), reflected_.end(), 0.0f);
+    const std::size_t stride = padToLanes(columnCount);
+    const std::size_t channelSize = rowCount_ * stride;
+    radiance_.resize(kChannelCount * stride);
+    reflected_.assign(kChannelCount * channelSize, 0.0f);
     for (std::size_t h = 0; h < hits_.size(); ++h) {
+        if (!reflects(hits_[h])) continue;
         const std::uint32_t ray = blockedRays_[h];
         const Vec3f direction(rays_.directionX[ray], rays_.directionY[ray], rays_.directionZ[ray]);
-        if (!findRadiance(hits_[h], direction, sources)) continue;
+        findRadiance(hits_[h], direction, sources, stride);
         evaluateSh(frame.localFromWorld(direction), shared_.visibilityMatrix.incidentBandCount(),
                    basis_);
         for (std::size_t channel = 0; channel < kChannelCount; ++channel)
-            shared_.kernels.addOuterProduct(
-                basis_, std::span(radiance_).subspan(channel * stride_, stride_),
-                reflected_.data() + channel * channelSize);
+            shared_.kernels.addOuterProduct(basis_,
+                                            std::span(radiance_).subspan(channel * stride, stride),
+                                            reflected_.data() + channel * channelSize);
     }
     const float weight = 2.0f * std::numbers::pi_v<float> / static_cast<float>(rays_.size());
     for (std::size_t row = 0; row < kChannelCount * rowCount_; ++row)
-        for (std::size_t j = 0; j < columnCount_; ++j)
-            matrix[row * columnCount_ + j] += weight * reflected_[row * stride_ + j];
+        for (std::size_t j = 0; j < columnCount; ++j)
+            matrix[row * columnCount + j] += weight * reflected_[row * stride + j];
 }
 
 /// Writes what a surface sends back along a ray, interpolated between its corners, each of which
 /// has a frame of its own.
-///
-/// @return  whether it reflects at all
-bool MatrixGatherer::findRadiance(const Hit& hit, const Vec3f& direction,
-                                  std::span<const float> sources) {
-    if (hit.escaped) return false;  // not finite, or lost between the two queries: dark
-    const GatherScene& scene = shared_.scene;
-    const Mesh& mesh = scene.scene.meshes[hit.point.mesh];
-    if (hit.backFace && !scene.scene.materials[mesh.material].doubleSided) return false;  // C11
-
+void MatrixGatherer::findRadiance(const Hit& hit, const Vec3f& direction,
+                                  const MatrixSources& sources, std::size_t stride) {
+    const Receivers& receivers = shared_.scene.receivers;
+    const std::size_t columnCount = sources.columns.count();
     std::fill(radiance_.begin(), radiance_.end(), 0.0f);
     const std::array<float, 3> weights = {1.0f - hit.point.u - hit.point.v, hit.point.u,
                                           hit.point.v};
-    const std::array<std::uint32_t, 3>& fronts =
-        scene.receivers.frontsOfTriangle[firstTriangle_[hit.point.mesh] + hit.point.triangle];
     Vec3f lastNormal(0.0f, 0.0f, 0.0f);
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t corner =
-            hit.backFace ? backReceiver(scene.receivers, fronts[k]) : fronts[k];
-        const Vec3f& normal = receiverSite(scene.receivers, corner).normal;
-        if (k == 0 || normal != lastNormal) {
+        const std::uint32_t front = frontsAt(hit)[k];
+        const std::uint32_t row = hit.backFace ? sources.rowOfBack[front] : front;
+        if (row == kNoRow) continue;
+        const std::uint32_t corner = hit.backFace ? backReceiver(receivers, front) : front;
+        const Vec3f& normal = receiverSite(receivers, corner).normal;
+        if (normal != lastNormal) {
             std::fill(response_.begin(), response_.end(), 0.0f);
             shared_.reflection(hit.point, frameFromNormal(normal).localFromWorld(-direction),
                                response_);
@@ -132,10 +146,9 @@ bool MatrixGatherer::findRadiance(const Hit& hit, const Vec3f& direction,
         for (std::size_t channel = 0; channel < kChannelCount; ++channel)
             shared_.kernels.addProduct(
                 std::span(cornerResponse_).subspan(channel * rowCount_, rowCount_),
-                sources.data() + (corner * kChannelCount + channel) * rowCount_ * columnCount_,
-                columnCount_, radiance_.data() + channel * stride_);
+                sources.values + (row * kChannelCount + channel) * rowCount_ * columnCount,
+                columnCount, radiance_.data() + channel * stride);
     }
-    return true;
 }
 
 }  // namespace prt

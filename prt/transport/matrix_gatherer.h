@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -28,6 +29,25 @@ inline const Receiver& receiverSite(const Receivers& receivers, std::uint32_t re
                                  : receivers.backs[receiver - frontCount];
 }
 
+/// Some coefficients of the light: columns of a matrix.
+struct ColumnRange {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+
+    std::size_t count() const { return end - begin; }
+};
+
+/// What comes in at surfaces, for some columns of light.
+struct MatrixSources {
+    /// [row][channel][i][column − columns.begin]: front i has row i. Behind them come kLaneMultiple
+    /// numbers that mean nothing.
+    const float* values = nullptr;
+    ColumnRange columns{};
+    std::span<const std::uint32_t> rowOfBack{};  ///< kNoRow: that side sends nothing
+};
+
+inline constexpr std::uint32_t kNoRow = 0xffffffffu;
+
 /// Makes transfer matrices one after the other, of rays uniform over each receiver's hemisphere.
 /// One of them serves one thread.
 class MatrixGatherer {
@@ -37,32 +57,37 @@ class MatrixGatherer {
     /// The light that comes straight. @param matrix  [i][j], written
     void gatherVisible(std::uint32_t receiver, std::span<float> matrix);
 
-    /// The light that surfaces send on along the same rays, added.
+    /// The light that surfaces send on along the same rays, added: each column by itself, and so
+    /// the same whichever are made at once.
     ///
     /// @param receiver  that gatherVisible was called for last
-    /// @param sources   [receiver][channel][i][j], what comes in at surfaces: fronts, then backs if
-    ///                  there are any; and kLaneMultiple numbers that mean nothing
-    /// @param matrix    [channel][i][j]
-    void addReflected(std::uint32_t receiver, std::span<const float> sources,
+    /// @param matrix    [channel][i][column − sources.columns.begin]
+    void addReflected(std::uint32_t receiver, const MatrixSources& sources,
                       std::span<float> matrix);
+
+    /// Adds the backs that the rays of gatherVisible have met: those of the corners there.
+    ///
+    /// @param backs  back i lies behind front i
+    void appendBacksMet(std::vector<std::uint32_t>& backs);
 
     const GatherCounts& counts() const { return counts_; }
 
   private:
     void findHits();
-    bool findRadiance(const Hit& hit, const Vec3f& direction, std::span<const float> sources);
+    bool reflects(const Hit& hit) const;
+    const std::array<std::uint32_t, 3>& frontsAt(const Hit& hit) const;
+    void findRadiance(const Hit& hit, const Vec3f& direction, const MatrixSources& sources,
+                      std::size_t stride);
 
     const MatrixGatherScene& shared_;
     std::size_t rowCount_;
-    std::size_t columnCount_;
     std::vector<std::size_t> firstTriangle_;  // of each mesh, scene-wide
     RayStream rays_;
     std::vector<float> visibility_;
     std::vector<float> scratch_;
     std::vector<std::uint32_t> blockedRays_;
     std::vector<Hit> hits_;
-    // Rows of light coefficients are padded here: stride_ apart.
-    std::size_t stride_;
+    // Rows of light coefficients are padded in these.
     std::vector<float> response_;        // [channel][i] of a surface, towards the receiver
     std::vector<float> cornerResponse_;  // times the weight of a corner
     std::vector<float> radiance_;        // [channel][j] that it sends there

@@ -35,7 +35,7 @@ struct TransferMatrixOptions {
     int incidentBandCount = 5;  ///< n_in and n: at least 1, and n_in + n − 1 ≤ kMaxBandCount
     int bandCount = 5;
     int sampleCount = 1024;   ///< rays a receiver, 16 … 65536
-    int bounceCount = 0;      ///< diffuse and glossy ones
+    int bounceCount = 0;      ///< diffuse and glossy ones, or kInfiniteBounces
     Reflection reflection{};  ///< of the surfaces; empty: lambertReflection, for which n_in ≥ 2
     std::uint64_t seed = 1;
     int threadCount = 0;       ///< 0: one a core
@@ -43,6 +43,9 @@ struct TransferMatrixOptions {
     TableStorage storage{};
     ProgressCallback progress{};
 };
+
+/// Checks that n_in + n − 1 ≤ kMaxBandCount, n_in, n ≥ 1. @throws Error  invalidOption
+void checkMatrixBands(int incidentBandCount, int bandCount);
 
 /// Where the time of all threads went. Matrices are made within accumulateSeconds; traceSeconds is
 /// that of bare occlusion rays, and for bounces of the closest hits.
@@ -55,7 +58,8 @@ struct TransferMatrixStats {
 ///
 /// Rays below the geometric surface are blocked, as for transfer vectors (C11). Rays are traced
 /// again for each bounce rather than kept: b bounces are M ← M⁽⁰⁾ + F(M), b times. A bounce holds
-/// the matrices before and after it in memory, each 12 n_in² n² bytes a receiver.
+/// the matrices before and after it in memory, each 12 n_in² n² bytes a receiver; bakeTransfer
+/// makes the same of as many columns at a time as have room.
 ///
 /// @param scene   as its reader promises; textures decoded
 /// @param stats   filled if given

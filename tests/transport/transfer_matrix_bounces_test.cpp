@@ -300,7 +300,7 @@ TEST(TransferMatrixBounces, TellHowFarTheyAreAndCanBeCancelled) {
 TEST(TransferMatrixBounces, NeedTwoBandsUnderLambertsLaw) {
     const Scene scene = makeRoomScene();
     for (const TransferMatrixOptions& options :
-         {TransferMatrixOptions{.bounceCount = -1},
+         {TransferMatrixOptions{.bounceCount = -2},
           TransferMatrixOptions{.incidentBandCount = 1, .bounceCount = 1}}) {
         try {
             bakeTransferMatrices(scene, options);
