@@ -15,6 +15,11 @@ constexpr const char* kFooter =
 The asset is a glTF with one layer for each transport up to the one asked for, so that all of them
 can be shown. The same seed gives the same bytes for any number of threads, on one instruction set.
 
+Diffuse light is a vector a vertex, --bands squared. Glossy light depends on the view, and is a
+matrix: --bands squared times --incident-bands squared numbers, 10 KB a vertex at 5 by 5 and in
+floats; --method cpca makes about a hundredth of it. Its rays are traced again for each bounce, and for each
+part of the light where --memory has no room for all: give it 8 KB a vertex.
+
 With --refine-error vertices are added where shadows bend, and only there: at the same error a third
 of the vertices of a small --max-edge are enough.
 
@@ -70,13 +75,13 @@ void addBakeCommand(CLI::App& app) {
     command->callback([state, command, output, units] {
         const BakeOptions& bake = state->arguments.bake;
         if (output->count() + units->count() == 0) throw CLI::RequiredError("--output");
-        const bool bounces = command->count("--bounces") > 0 && bake.bounceCount != 0;
-        if (bounces && bake.transport != Transport::interreflected)
-            throw CLI::ValidationError("--bounces",
-                                       "bounces are baked with --transport interreflected only");
+        checkTransportOptions(*command, bake);
         if (command->count("--checkpoint") > 0 && bake.transport == Transport::unshadowed)
             throw CLI::ValidationError("--checkpoint",
                                        "unshadowed transport traces no ray that could be kept");
+        if (units->count() > 0 && isGlossy(bake.transport))
+            throw CLI::ValidationError("--units",
+                                       "glossy transport is baked by one machine, not in shares");
         if (units->count() > 0) return bakeShare(state->arguments, state->units);
         bakeToAsset(state->arguments);
     });

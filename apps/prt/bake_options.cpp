@@ -17,6 +17,7 @@
 namespace prt::cli {
 namespace {
 
+constexpr const char* kIncidentBandsOption = "--incident-bands";
 constexpr const char* kMaxEdgeSetting = "max-edge";
 constexpr const char* kRefineErrorSetting = "refine-error";
 constexpr const char* kMinEdgeSetting = "min-edge";
@@ -81,10 +82,13 @@ void addRefineOptions(CLI::App& command, RefineArguments& refine) {
 void addTransportOptions(CLI::App& command, BakeArguments& arguments) {
     BakeOptions& bake = arguments.bake;
     addParsedOption(command, "--transport", bake.transport, parseTransport,
-                    "unshadowed|shadowed|interreflected", "how much of light transport to bake")
+                    "unshadowed|shadowed|interreflected|glossy-shadowed|glossy",
+                    "how much of light transport to bake")
         ->default_str("interreflected");
     addIntegerOption(command, "--bands", bake.bandCount, 1, kMaxBandCount,
                      "n bands of spherical harmonics, n*n coefficients; 1 to 10");
+    addIntegerOption(command, kIncidentBandsOption, bake.incidentBandCount, 1, kMaxBandCount,
+                     "of the light at a glossy surface; with --bands 11 at most");
     addIntegerOption(command, "--samples", bake.sampleCount, 16, 65536,
                      "rays a vertex; 16 to 65536");
     addParsedOption(command, "--bounces", bake.bounceCount, parseBounces, "N|inf",
@@ -98,6 +102,25 @@ void addTransportOptions(CLI::App& command, BakeArguments& arguments) {
     addParsedOption(
         command, "--isa", bake.isa, parseRunnableIsa, "sse4|avx2|avx512",
         fmt::format("instruction set, for the same bytes elsewhere [{}]", isaName(detectIsa())));
+}
+
+void checkTransportOptions(const CLI::App& command, const BakeOptions& bake) {
+    const bool bounces = command.count("--bounces") > 0 && bake.bounceCount != 0;
+    if (bounces && !hasBounces(bake.transport))
+        throw CLI::ValidationError(
+            "--bounces", "bounces are baked with --transport interreflected or glossy only");
+    if (!isGlossy(bake.transport)) {
+        if (command.count(kIncidentBandsOption) > 0)
+            throw CLI::ValidationError(
+                kIncidentBandsOption,
+                "light at a surface is baked with --transport glossy-shadowed or glossy only");
+        return;
+    }
+    if (bake.incidentBandCount + bake.bandCount - 1 > kMaxBandCount)
+        throw CLI::ValidationError(
+            kIncidentBandsOption,
+            fmt::format("{} and --bands {} are more than {} together", bake.incidentBandCount,
+                        bake.bandCount, kMaxBandCount + 1));
 }
 
 void addRunOptions(CLI::App& command, BakeArguments& arguments) {
@@ -152,10 +175,11 @@ Provenance makeProvenance(const BakeArguments& arguments, const BakeStats& stats
     const BakeOptions& bake = arguments.bake;
     const bool infinite = bake.bounceCount == kInfiniteBounces;
     std::string command = fmt::format(
-        "bake --transport {} --bands {} --samples {} --bounces {} --max-edge {} {} --seed "
+        "bake --transport {} --bands {}{} --samples {} --bounces {} --max-edge {} {} --seed "
         "{} --isa {}",
-        transportName(bake.transport), bake.bandCount, bake.sampleCount,
-        infinite ? "inf" : std::to_string(bake.bounceCount),
+        transportName(bake.transport), bake.bandCount,
+        isGlossy(bake.transport) ? fmt::format(" --incident-bands {}", bake.incidentBandCount) : "",
+        bake.sampleCount, infinite ? "inf" : std::to_string(bake.bounceCount),
         formatEdgeLength(arguments.maxEdgeLength), describeMethod(arguments.method), bake.seed,
         isaName(stats.isa));
     const RefineArguments& refine = arguments.refine;

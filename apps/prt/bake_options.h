@@ -38,6 +38,12 @@ struct BakeArguments {
 /// Adds the options that decide what is baked: --transport … --isa.
 void addTransportOptions(CLI::App& command, BakeArguments& arguments);
 
+/// Checks that they make sense together.
+///
+/// @param command  that was given the options
+/// @throws CLI::ValidationError
+void checkTransportOptions(const CLI::App& command, const BakeOptions& bake);
+
 /// Adds those that any bake of the same transport may choose anew: --method … --stats.
 void addRunOptions(CLI::App& command, BakeArguments& arguments);
 

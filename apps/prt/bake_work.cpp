@@ -100,24 +100,31 @@ Scene prepareScene(BakeArguments& arguments, StageLog& log) {
     return refineWhereNeeded(std::move(refined), arguments, log);
 }
 
-/// What transfer will take in the asset.
-std::uint64_t countTransferBytes(const Scene& scene, const BakeArguments& arguments,
-                                 const CompressOptions& compress) {
-    double vertexBytes = 0.0;
-    for (const int channelCount : {1, 3}) {
-        if (channelCount == 3 && arguments.bake.transport != Transport::interreflected) continue;
-        vertexBytes += forecastVertexBytes(
-            compress, coefficientsPerReceiver(arguments.bake.bandCount, channelCount),
-            scene.vertexCount());
+/// What the layers of a bake will take of each vertex in the asset.
+double countVertexBytes(const BakeOptions& bake, const CompressOptions& compress,
+                        std::size_t vertexCount) {
+    const auto countLayer = [&](int channelCount, int incidentBandCount) {
+        return forecastVertexBytes(
+            compress, coefficientsPerReceiver(bake.bandCount, channelCount, incidentBandCount),
+            vertexCount);
+    };
+    double bytes = 0.0;
+    for (const int incidentBandCount : {0, bake.incidentBandCount}) {
+        if (incidentBandCount > 0 && !isGlossy(bake.transport)) continue;
+        bytes += countLayer(1, incidentBandCount);
+        if (hasBounces(bake.transport)) bytes += countLayer(3, incidentBandCount);
     }
-    return static_cast<std::uint64_t>(static_cast<double>(scene.vertexCount()) * vertexBytes);
+    return bytes;
 }
 
 /// Checks that a binary glTF can hold what will be baked, and the disk too, before it is.
 void checkAssetSize(const Scene& scene, const BakeArguments& arguments,
-                    const CompressOptions& compress) {
+                    const CompressOptions& compress, StageLog& log) {
+    constexpr std::uint64_t kLargeBytes = 100'000'000;
     constexpr std::uint64_t kMaxBytes = UINT32_MAX;
-    const std::uint64_t bytes = countTransferBytes(scene, arguments, compress);
+    const double vertexBytes = countVertexBytes(arguments.bake, compress, scene.vertexCount());
+    const auto bytes =
+        static_cast<std::uint64_t>(static_cast<double>(scene.vertexCount()) * vertexBytes);
     if (bytes > kMaxBytes)
         throw Error(
             ErrorCode::limitExceeded,
@@ -133,6 +140,10 @@ void checkAssetSize(const Scene& scene, const BakeArguments& arguments,
                     fmt::format("needs more than {}, and its disk has {} left", formatBytes(bytes),
                                 formatBytes(freeBytes)),
                     arguments.output, "make space, or use fewer bands or --method cpca, u16 or u8");
+    if (isGlossy(arguments.bake.transport) && !compress.clusters && bytes > kLargeBytes)
+        log.warn(
+            fmt::format("matrices will take {} in the asset; --method cpca needs about a hundredth",
+                        formatBytes(bytes)));
 }
 
 /// Says what the bake will take.
@@ -282,7 +293,7 @@ void bakeToAsset(BakeArguments arguments) {
     stopIfInterrupted();
 
     const Scene scene = prepareScene(arguments, log);
-    checkAssetSize(scene, arguments, compress);
+    checkAssetSize(scene, arguments, compress, log);
     seconds.load = total.seconds();
 
     BakeStats stats;

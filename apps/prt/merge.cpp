@@ -5,6 +5,7 @@
 
 #include "apps/prt/bake_work.h"
 #include "apps/prt/commands.h"
+#include "prt/base/error.h"
 
 namespace prt::cli {
 namespace {
@@ -41,6 +42,10 @@ void addMergeCommand(CLI::App& app) {
         checkpoint.otherFolders.assign(state->folders.begin() + 1, state->folders.end());
         checkpoint.requireFronts = true;
         adoptFolderSettings(checkpoint.folder, state->arguments);
+        if (isGlossy(state->arguments.bake.transport))
+            throw Error(ErrorCode::invalidOption,
+                        "holds glossy transport, which is baked by one machine",
+                        checkpoint.folder.string(), "go on with prt bake --checkpoint");
         bakeToAsset(state->arguments);
     });
 }

@@ -180,6 +180,10 @@ auto withinMemory(Work work) {
 
 }  // namespace
 
+bool hasBounces(Transport transport) {
+    return transport == Transport::interreflected || transport == Transport::glossy;
+}
+
 TransferField bakeTransfer(const Scene& scene, const BakeOptions& options, BakeStats* stats) {
     checkOptions(options);
     BakeStats ownStats;

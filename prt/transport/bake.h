@@ -19,6 +19,9 @@ namespace prt {
 /// Bounces until nothing changes any more.
 inline constexpr int kInfiniteBounces = -1;
 
+/// Whether light bounces from surface to surface in a bake of this transport.
+bool hasBounces(Transport transport);
+
 /// Keeps what is finished, so that a bake that was killed goes on where it was. The result is the
 /// same to the last bit, with or without, however often it was killed.
 struct CheckpointOptions {

@@ -150,10 +150,6 @@ std::size_t receiversPerUnit(std::size_t receiverCount, std::size_t sampleCount,
     return std::max<std::size_t>(rays / sampleCount, 1);
 }
 
-bool hasBounces(Transport transport) {
-    return transport == Transport::interreflected || transport == Transport::glossy;
-}
-
 std::size_t countDoubleSided(const GatherScene& scene) {
     std::vector<bool> doubleSided(scene.receivers.fronts.size());
     const std::vector<std::size_t> offsets = vertexOffsets(scene.scene);

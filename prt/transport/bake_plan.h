@@ -11,9 +11,6 @@
 
 namespace prt {
 
-/// Whether light bounces from surface to surface.
-bool hasBounces(Transport transport);
-
 /// The options of the gather that a bake asks for.
 GatherOptions gatherOptionsOf(const BakeOptions& options);
 
