@@ -73,6 +73,7 @@ void addBakeCommand(CLI::App& app) {
     units->needs(checkpoint)->excludes(output);
 
     command->callback([state, command, output, units] {
+        state->arguments.brdfTexts = command->get_option("--brdf")->results();
         const BakeOptions& bake = state->arguments.bake;
         if (output->count() + units->count() == 0) throw CLI::RequiredError("--output");
         checkTransportOptions(*command, bake);

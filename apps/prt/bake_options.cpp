@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "apps/prt/arguments.h"
+#include "apps/prt/bake_brdf.h"
 #include "apps/prt/compress_method.h"
 #include "prt/base/error.h"
 #include "prt/basis/sh.h"
@@ -94,6 +95,7 @@ void addTransportOptions(CLI::App& command, BakeArguments& arguments) {
     addParsedOption(command, "--bounces", bake.bounceCount, parseBounces, "N|inf",
                     "indirect bounces; 0 to 1000, or until nothing changes")
         ->default_str("2");
+    addBrdfOption(command, arguments.brdfs);
     addParsedOption(command, "--max-edge", arguments.maxEdgeLength, parseEdgeLength, "LENGTH|none",
                     "split edges longer than this, metres [a 16th of the scene's radius]");
     addRefineOptions(command, arguments.refine);
@@ -109,6 +111,9 @@ void checkTransportOptions(const CLI::App& command, const BakeOptions& bake) {
     if (bounces && !hasBounces(bake.transport))
         throw CLI::ValidationError(
             "--bounces", "bounces are baked with --transport interreflected or glossy only");
+    if (command.count("--brdf") > 0 && bake.transport != Transport::glossy)
+        throw CLI::ValidationError(
+            "--brdf", "light bounces off other materials with --transport glossy only");
     if (!isGlossy(bake.transport)) {
         if (command.count(kIncidentBandsOption) > 0)
             throw CLI::ValidationError(
@@ -143,9 +148,10 @@ void addRunOptions(CLI::App& command, BakeArguments& arguments) {
         ->type_name("FILE.json");
 }
 
-std::vector<Setting> callerSettings(const BakeArguments& arguments) {
+std::vector<Setting> callerSettings(const BakeArguments& arguments, const std::string& brdfs) {
     std::vector<Setting> settings = {{kMaxEdgeSetting, formatEdgeLength(arguments.maxEdgeLength)},
                                      {"version", PRT_VERSION}};
+    if (!brdfs.empty()) settings.push_back({"brdf", brdfs});
     const RefineArguments& refine = arguments.refine;
     if (refine.maxError == 0.0f) {
         settings.push_back({kRefineErrorSetting, "none"});
@@ -182,6 +188,7 @@ Provenance makeProvenance(const BakeArguments& arguments, const BakeStats& stats
         bake.sampleCount, infinite ? "inf" : std::to_string(bake.bounceCount),
         formatEdgeLength(arguments.maxEdgeLength), describeMethod(arguments.method), bake.seed,
         isaName(stats.isa));
+    command += describeBrdfs(arguments);
     const RefineArguments& refine = arguments.refine;
     if (refine.maxError > 0.0f)
         command +=

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/prt/brdf_argument.h"
 #include "apps/prt/compress_method.h"
 #include "apps/prt/limits.h"
 #include "prt/asset/asset.h"
@@ -31,6 +32,8 @@ struct BakeArguments {
     float maxEdgeLength = 0.0f;  ///< metres; 0 chooses from the scene, or kKeepEdges
     RefineArguments refine;
     MethodArguments method{.byDefault = "float"};
+    std::vector<BrdfArgument> brdfs;
+    std::vector<std::string> brdfTexts;  ///< the same as they were given
     BakeOptions bake;
     ReaderLimits limits;
 };
@@ -38,7 +41,7 @@ struct BakeArguments {
 /// Adds the options that decide what is baked: --transport … --isa.
 void addTransportOptions(CLI::App& command, BakeArguments& arguments);
 
-/// Checks that they make sense together.
+/// Checks that they make sense together, once a command line is read.
 ///
 /// @param command  that was given the options
 /// @throws CLI::ValidationError
@@ -49,7 +52,9 @@ void addRunOptions(CLI::App& command, BakeArguments& arguments);
 
 /// What decides the bits of a bake beside the options of bakeTransfer. The
 /// edge length must have been chosen.
-std::vector<Setting> callerSettings(const BakeArguments& arguments);
+///
+/// @param brdfs  of a BakeReflection
+std::vector<Setting> callerSettings(const BakeArguments& arguments, const std::string& brdfs);
 
 /// Asks for what the checkpoint in a folder was begun with. @throws Error  as readFolderSettings
 void adoptFolderSettings(const std::filesystem::path& folder, BakeArguments& arguments);

@@ -14,6 +14,7 @@
 
 #include "apps/prt/arguments.h"
 #include "apps/prt/asset_output.h"
+#include "apps/prt/bake_brdf.h"
 #include "apps/prt/compress_method.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/memory.h"
@@ -175,17 +176,20 @@ void tellForecast(const BakeForecast& forecast, std::uint64_t allowedBytes, cons
 
 /// Runs a bake that an interrupt of the user stops in good order.
 template <class Bake>
-auto runInterruptibly(const BakeArguments& arguments, StageLog& log, Bake bake) {
+auto runInterruptibly(const Scene& scene, const BakeArguments& arguments, StageLog& log,
+                      Bake bake) {
     // Until the first ray there is nothing to put in order: the program ends at once.
     std::optional<DeferInterrupts> untilTheCallback;
     const Stopwatch build;
     BakeOptions options = arguments.bake;
+    BakeReflection reflection = makeBakeReflection(scene, arguments);
+    options.reflection = std::move(reflection.reflection);
     options.progress = log.callback();
     options.announce = [&](const BakeForecast& forecast) {
         untilTheCallback.emplace();
         tellForecast(forecast, arguments.bake.memoryBytes, build, log);
     };
-    options.checkpoint.callerSettings = callerSettings(arguments);
+    options.checkpoint.callerSettings = callerSettings(arguments, reflection.setting);
     const std::string folder = options.checkpoint.folder.string();
     try {
         auto result = bake(options);
@@ -200,7 +204,7 @@ auto runInterruptibly(const BakeArguments& arguments, StageLog& log, Bake bake) 
 
 TransferField bakeScene(const Scene& scene, const BakeArguments& arguments, BakeStats& stats,
                         StageLog& log) {
-    TransferField field = runInterruptibly(arguments, log, [&](const BakeOptions& options) {
+    TransferField field = runInterruptibly(scene, arguments, log, [&](const BakeOptions& options) {
         return bakeTransfer(scene, options, &stats);
     });
     for (const std::string& warning : stats.warnings)
@@ -319,9 +323,9 @@ void bakeShare(BakeArguments arguments, UnitRange units) {
     const Stopwatch total;
     StageLog log;
     const Scene scene = prepareScene(arguments, log);
-    const UnitReport report = runInterruptibly(arguments, log, [&](const BakeOptions& options) {
-        return bakeUnits(scene, options, units);
-    });
+    const UnitReport report = runInterruptibly(
+        scene, arguments, log,
+        [&](const BakeOptions& options) { return bakeUnits(scene, options, units); });
     for (const std::string& warning : report.warnings)
         log.warn(warning);
     log.finishStage("units", total.seconds(),

@@ -74,6 +74,19 @@ TEST_F(LimitedBake, StaysWithinItsMemoryAndMakesTheSameBytes) {
               readText(folder_.path() / "limited.prt.glb"));
 }
 
+TEST_F(LimitedBake, OfMatricesStaysWithinItsMemoryAndMakesTheSameBytes) {
+    const Words glossy = {"--transport",      "glossy", "--bands", "3",
+                          "--incident-bands", "3",      "--brdf",  "lambert:0.5,0.5,0.5"};
+    const std::uint64_t freely = peakOfBake("freely.prt.glb", glossy);
+    const std::uint64_t allowed = freely - 80 * kMebibyte;
+    Words less = glossy;
+    less.insert(less.end(), {"--memory", std::to_string(allowed)});
+    const std::uint64_t limited = peakOfBake("limited.prt.glb", less);
+    EXPECT_LE(static_cast<double>(limited), 1.05 * static_cast<double>(allowed));
+    EXPECT_EQ(readText(folder_.path() / "freely.prt.glb"),
+              readText(folder_.path() / "limited.prt.glb"));
+}
+
 TEST_F(LimitedBake, TooLittleIsRefusedWithWhatItTakes) {
     const CommandResult result = bake("out.prt.glb", {"--memory", "1M"});
     EXPECT_EQ(result.exitCode, 1);
