@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "prt/basis/sh.h"
 
@@ -12,9 +13,13 @@ namespace {
 
 // What rounding in the bake and in expansion may add, relative to the bound.
 constexpr double kTolerance = 1e-3;
-// So many receivers are expanded at a time: clusters are small in the file, and large when
-// expanded.
-constexpr std::size_t kReceiversAtOnce = 65536;
+// So many numbers are expanded at a time: clusters are small in the file, and large when expanded.
+constexpr std::size_t kNumbersAtOnce = std::size_t{1} << 22;
+// Dielectrics of glTF return up to 1.85 of the light around them, seen along the surface
+// (docs/architecture.md), and lobes that end at n_in bands ring: so much more light is not doubted.
+constexpr double kMostReflected = 2.0;
+// None of millions of elements is further from its mean than this, in standard deviations.
+constexpr double kDeviations = 6.0;
 // More unlit vertices than closed solids standing in each other usually have.
 constexpr double kSuspiciousDarkShare = 0.25;
 
@@ -25,11 +30,38 @@ struct LayerCounts {
     std::size_t dark = 0;
 };
 
-/// √((2l+1)/4π) for each coefficient: the largest magnitude of its basis function over the sphere.
-std::vector<double> coefficientBounds(int bandCount) {
-    std::vector<double> bounds;
+/// √(2l+1) for each coefficient: √4π times the largest magnitude of its basis function.
+std::vector<double> basisPeaks(int bandCount) {
+    std::vector<double> peaks;
     for (int i = 0; i < shCoefficientCount(bandCount); ++i)
-        bounds.push_back(std::sqrt((2 * shDegree(i) + 1) / (4.0 * std::numbers::pi)));
+        peaks.push_back(std::sqrt(2 * shDegree(i) + 1));
+    return peaks;
+}
+
+/// Of an element that is a mean over rays: their own bound, and what so few of them may add.
+/// M_00 is a mean of numbers within its bound.
+double elementBound(Transport transport, double incidentPeak, double lightPeak, double noise) {
+    if (lightPeak == 1.0 && incidentPeak == 1.0) noise = 0.0;
+    if (transport == Transport::glossyShadowed)
+        return 0.5 * (1.0 + noise * std::min(incidentPeak, lightPeak));
+    return 0.5 * kMostReflected * lightPeak * (1.0 + noise);
+}
+
+/// The largest magnitude of each coefficient of a channel, as check_asset.h says.
+std::vector<double> coefficientBounds(int bandCount, const CompressedLayer& layer,
+                                      int sampleCount) {
+    std::vector<double> bounds = basisPeaks(bandCount);
+    if (!isGlossy(layer.transport)) {
+        for (double& bound : bounds)
+            bound /= std::sqrt(4.0 * std::numbers::pi);
+        return bounds;
+    }
+    const std::vector<double> lightPeaks = std::move(bounds);
+    const double noise = kDeviations / std::sqrt(std::max(1, sampleCount));
+    bounds.clear();
+    for (const double incidentPeak : basisPeaks(layer.incidentBandCount))
+        for (const double lightPeak : lightPeaks)
+            bounds.push_back(elementBound(layer.transport, incidentPeak, lightPeak, noise));
     return bounds;
 }
 
@@ -57,29 +89,35 @@ void countDoubts(std::span<const float> values, const std::vector<double>& bound
     }
 }
 
-LayerCounts countDoubts(const CompressedTransfer& transfer, const CompressedLayer& layer) {
+LayerCounts countDoubts(const Asset& asset, const CompressedLayer& layer) {
+    const CompressedTransfer& transfer = asset.transfer;
     const LayerDecoder decoder(layer);
+    const std::vector<double> bounds =
+        coefficientBounds(transfer.bandCount, layer, asset.provenance.sampleCount);
+    const std::size_t rowLength = coefficientsPerReceiver(transfer.bandCount, layer);
+    const std::size_t rowsAtOnce = std::max<std::size_t>(1, kNumbersAtOnce / rowLength);
     LayerCounts counts;
-    for (std::size_t begin = 0; begin < transfer.receiverCount; begin += kReceiversAtOnce)
-        countDoubts(
-            decoder.expand(begin, std::min(kReceiversAtOnce, transfer.receiverCount - begin)),
-            coefficientBounds(transfer.bandCount),
-            coefficientsPerReceiver(transfer.bandCount, layer), layer.largestError, counts);
+    for (std::size_t begin = 0; begin < transfer.receiverCount; begin += rowsAtOnce)
+        countDoubts(decoder.expand(begin, std::min(rowsAtOnce, transfer.receiverCount - begin)),
+                    bounds, rowLength, layer.largestError, counts);
     return counts;
 }
 
 void reportLayer(const Asset& asset, const CompressedLayer& layer,
                  std::vector<std::string>& problems) {
-    const LayerCounts counts = countDoubts(asset.transfer, layer);
+    const LayerCounts counts = countDoubts(asset, layer);
     const std::string ofVertices =
         " of " + std::to_string(asset.transfer.receiverCount) + " vertices ";
     const std::string where = "layer " + std::string(transportName(layer.transport)) + ": ";
+    const bool isOfMatrices = isGlossy(layer.transport);
     if (counts.tooLarge > 0)
         problems.push_back(where + std::to_string(counts.tooLarge) + ofVertices +
-                           "return more light than reflectances up to 1 can");
+                           (isOfMatrices ? "receive more light than there can be"
+                                         : "return more light than reflectances up to 1 can"));
     if (counts.negativeMean > 0)
         problems.push_back(where + std::to_string(counts.negativeMean) + ofVertices +
-                           "answer uniform light with negative radiance");
+                           (isOfMatrices ? "receive a negative amount of uniform light"
+                                         : "answer uniform light with negative radiance"));
     if (static_cast<double>(counts.dark) >
         kSuspiciousDarkShare * static_cast<double>(asset.transfer.receiverCount))
         problems.push_back(where + std::to_string(counts.dark) + ofVertices +
