@@ -1,12 +1,14 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "apps/prt/commands.h"
+#include "apps/prt/mirror_like.h"
 #include "apps/prt/text.h"
 #include "prt/asset/asset.h"
 #include "prt/basis/sh.h"
@@ -45,17 +47,33 @@ void printProvenance(const Provenance& provenance) {
     printRow("isa", provenance.isa);
 }
 
+void printMirrorLike(const MirrorLike& mirrorLike) {
+    std::string names;
+    for (const std::string& name : mirrorLike.materials)
+        names += (names.empty() ? "" : ", ") + name;
+    const std::string limit = fmt::format("(roughness under {:.2f})", mirrorLike.leastRoughness);
+    if (names.empty())
+        printRow("mirror-like", "no material " + limit);
+    else
+        printRow("mirror-like",
+                 names + " " + limit +
+                     (mirrorLike.isSplitOff ? ": their specular light is taken from the environment"
+                                            : ": what they mirror is blurred to the bands"));
+}
+
 void printTransfer(const CompressedTransfer& transfer) {
     printRow(
         "bands",
         fmt::format("{} ({} a channel)", transfer.bandCount,
                     formatCount(static_cast<std::uint64_t>(shCoefficientCount(transfer.bandCount)),
                                 "coefficient")));
-    fmt::print("\n{:<16} {:>8} {:>10} {:>8} {:>10} {:>14} {:>10} {:>10}\n", "layer", "channels",
-               "encoding", "clusters", "components", "bytes/vertex", "bytes", "and bases");
+    fmt::print("\n{:<16} {:>8} {:>14} {:>10} {:>8} {:>10} {:>14} {:>10} {:>10}\n", "layer",
+               "channels", "incident bands", "encoding", "clusters", "components", "bytes/vertex",
+               "bytes", "and bases");
     for (const CompressedLayer& layer : transfer.layers)
-        fmt::print("{:<16} {:>8} {:>10} {:>8} {:>10} {:>14} {:>10} {:>10}\n",
+        fmt::print("{:<16} {:>8} {:>14} {:>10} {:>8} {:>10} {:>14} {:>10} {:>10}\n",
                    transportName(layer.transport), layer.channelCount,
+                   isGlossy(layer.transport) ? std::to_string(layer.incidentBandCount) : "",
                    encodingName(layer.table.encoding),
                    layer.bases ? formatCount(layer.bases->clusterCount()) : "",
                    layer.bases ? formatCount(layer.bases->componentCount()) : "",
@@ -63,10 +81,12 @@ void printTransfer(const CompressedTransfer& transfer) {
                    layer.bases ? formatBytes(countSharedBytes(layer)) : "");
 }
 
-void printTable(const std::string& path, const Asset& asset) {
+void printTable(const std::string& path, const Asset& asset,
+                const std::optional<MirrorLike>& mirrorLike) {
     printRow("asset", fmt::format("{}, {}", path, formatBytes(std::filesystem::file_size(path))));
     printScene(asset.scene);
     printProvenance(asset.provenance);
+    if (mirrorLike) printMirrorLike(*mirrorLike);
     printTransfer(asset.transfer);
 }
 
@@ -78,6 +98,7 @@ nlohmann::ordered_json describeLayers(const CompressedTransfer& transfer) {
                           {"encoding", encodingName(layer.table.encoding)},
                           {"bytes_per_vertex", bytesPerReceiver(layer)},
                           {"bytes", layer.table.numbers.byteCount()}});
+        if (isGlossy(layer.transport)) layers.back()["incident_bands"] = layer.incidentBandCount;
         if (!layer.bases) continue;
         layers.back()["clusters"] = layer.bases->clusterCount();
         layers.back()["components"] = layer.bases->componentCount();
@@ -88,12 +109,13 @@ nlohmann::ordered_json describeLayers(const CompressedTransfer& transfer) {
     return layers;
 }
 
-void printJson(const std::string& path, const Asset& asset) {
+void printJson(const std::string& path, const Asset& asset,
+               const std::optional<MirrorLike>& mirrorLike) {
     auto cameras = nlohmann::ordered_json::array();
     for (const Camera& camera : asset.scene.cameras)
         cameras.push_back(camera.name);
     const Provenance& provenance = asset.provenance;
-    const nlohmann::ordered_json json = {
+    nlohmann::ordered_json json = {
         {"asset", path},
         {"bytes", std::filesystem::file_size(path)},
         {"meshes", asset.scene.meshes.size()},
@@ -112,6 +134,10 @@ void printJson(const std::string& path, const Asset& asset) {
           {"seed", provenance.seed},
           {"isa", provenance.isa}}},
     };
+    if (mirrorLike)
+        json["mirror_like"] = {{"least_roughness", mirrorLike->leastRoughness},
+                               {"materials", mirrorLike->materials},
+                               {"from_environment", mirrorLike->isSplitOff}};
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
@@ -124,8 +150,10 @@ void addInfoCommand(CLI::App& app) {
     command->add_option("ASSET", arguments->asset, "what prt bake wrote")->required();
     command->add_flag("--json", arguments->json, "the same as JSON");
     command->callback([arguments] {
-        const Asset asset = readAsset(arguments->asset);
-        arguments->json ? printJson(arguments->asset, asset) : printTable(arguments->asset, asset);
+        Asset asset = readAsset(arguments->asset);
+        const std::optional<MirrorLike> mirrorLike = findMirrorLike(asset);
+        arguments->json ? printJson(arguments->asset, asset, mirrorLike)
+                        : printTable(arguments->asset, asset, mirrorLike);
     });
 }
 

@@ -75,4 +75,11 @@ std::optional<double> findLeastRoughnessHeld(int bandCount, double maxError,
     return roughEnough;
 }
 
+double leastRoughnessHeld(int bandCount) {
+    // So few nodes, six times as fast, move it by no more than kResolution.
+    constexpr LobeQuadratureOptions kCoarse{
+        .polarNodeCount = 32, .azimuthNodeCount = 24, .viewNodeCount = 16};
+    return findLeastRoughnessHeld(bandCount, kMostLobeError, kCoarse).value_or(1.0);
+}
+
 }  // namespace prt

@@ -27,4 +27,11 @@ BandLimitError measureBandLimitError(const Brdf& brdf, const BrdfProjectionOptio
 std::optional<double> findLeastRoughnessHeld(int bandCount, double maxError,
                                              const LobeQuadratureOptions& quadrature = {});
 
+/// A lobe that loses more than this is like a mirror to its bands.
+inline constexpr double kMostLobeError = 0.5;
+
+/// The least roughness that is shown with n bands, what is smoother being split off: with an error
+/// of at most kMostLobeError, or 1 where no roughness is.
+double leastRoughnessHeld(int bandCount);
+
 }  // namespace prt

@@ -122,5 +122,13 @@ TEST(BandLimit, TheLeastRoughnessHeldIsWhereTheErrorIsWhatWasAskedFor) {
     EXPECT_FALSE(findLeastRoughnessHeld(2, 0.1, kCoarse));
 }
 
+TEST(BandLimit, WhatIsSplitOffIsWhatLosesMoreThanTheErrorThatAllGoBy) {
+    constexpr double kResolution = 2e-3;
+    EXPECT_EQ(leastRoughnessHeld(1), 1.0);  // one band holds nothing
+    for (const int bandCount : {2, 5, 9})
+        EXPECT_NEAR(leastRoughnessHeld(bandCount),
+                    findLeastRoughnessHeld(bandCount, kMostLobeError).value(), kResolution);
+}
+
 }  // namespace
 }  // namespace prt
