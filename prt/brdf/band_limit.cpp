@@ -23,14 +23,21 @@ double squaredNorm(const Brdf& brdf, const Vec3d& view, const LobeQuadratureOpti
     return sum;
 }
 
-double sumSquares(std::span<const double> numbers) {
+double dot(std::span<const double> a, std::span<const double> b) {
     double sum = 0.0;
-    for (const double number : numbers)
-        sum += number * number;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
     return sum;
 }
 
-/// By Parseval: what is not in the coefficients.
+/// How much less than ∫ g² the squared difference above the horizon is, 2 f·f̃ − f̃ᵀ H f̃, where H
+/// is known from what f̃ solves.
+double heldAboveHorizon(std::span<const double> projected, std::span<const double> fitted) {
+    constexpr double kWeight = kHorizonFitWeight;
+    const double both = dot(projected, fitted);
+    return 2.0 * both - (both - kWeight * dot(fitted, fitted)) / (1.0 - kWeight);
+}
+
 double relativeRest(double held, double whole) {
     return whole > 0.0 ? std::sqrt(std::max(0.0, 1.0 - held / whole)) : 0.0;
 }
@@ -39,6 +46,7 @@ double relativeRest(double held, double whole) {
 
 BandLimitError measureBandLimitError(const Brdf& brdf, const BrdfProjectionOptions& options) {
     double whole = 0.0, heldOfIncident = 0.0, heldOfBoth = 0.0;
+    const HorizonFit fit(options.incidentBandCount);
     std::array<BrdfMatrix, 3> matrices;
     matrices.fill(makeBrdfMatrix(options.incidentBandCount, options.viewBandCount));
     for (const ViewNode& node : viewNodes(options.quadrature)) {
@@ -46,12 +54,17 @@ BandLimitError measureBandLimitError(const Brdf& brdf, const BrdfProjectionOptio
             projectBrdfView(brdf, node.view, options.incidentBandCount, options.quadrature);
         whole += node.solidAngle * squaredNorm(brdf, node.view, options.quadrature);
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            heldOfIncident += node.solidAngle * sumSquares(perView[channel]);
+            std::vector<double> fitted = perView[channel];
+            fit.apply(fitted);
+            heldOfIncident += node.solidAngle * heldAboveHorizon(perView[channel], fitted);
             addBrdfView(node, perView[channel], matrices[channel]);
         }
     }
-    for (const BrdfMatrix& matrix : matrices)
-        heldOfBoth += sumSquares(expandBrdfMatrix(matrix));
+    // By Parseval.
+    for (const BrdfMatrix& matrix : matrices) {
+        const std::vector<double> expanded = expandBrdfMatrix(matrix);
+        heldOfBoth += dot(expanded, expanded);
+    }
     return {.incident = relativeRest(heldOfIncident, whole),
             .matrix = relativeRest(heldOfBoth, whole)};
 }

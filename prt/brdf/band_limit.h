@@ -3,18 +3,19 @@
 #include <optional>
 
 #include "prt/brdf/brdf_matrix.h"
+#include "prt/brdf/horizon_fit.h"
 
 namespace prt {
 
 /// What bands lose of a BRDF: the L2 norm of the difference between g(ω_i, ω_o) = f_r max(cos θ_i,
-/// 0) and what its coefficients say, over the norm of g, all channels together. More bands never
-/// lose more.
+/// 0) and what its coefficients say, over the norm of g, all channels together.
 struct BandLimitError {
-    /// With bands for ω_i alone, as projectBrdfView has them, over all views above the horizon: how
-    /// well the lobe itself is held. It has a floor, at the roughest, in the horizon's crease.
+    /// With bands for ω_i alone, fitted above the horizon as tables of views have them
+    /// (GltfViewTable), there and for all views above it: how well the lobe itself is held. It has
+    /// a floor, at the roughest, in lobes that end at the horizon.
     double incident = 0.0;
-    /// With bands for both, as projectBrdf has them. g is 0 for views below the horizon, and the
-    /// coefficients spend much on that step: 0.25 of a Lambert BRDF at 5 bands.
+    /// With bands for both, as projectBrdf has them, over all directions. g is 0 below the horizon,
+    /// and the coefficients spend much on that step: 0.25 of a Lambert BRDF at 5 bands.
     double matrix = 0.0;
 };
 

@@ -11,15 +11,18 @@ BrdfViewTable::BrdfViewTable(const Brdf& brdf, const BrdfViewTableOptions& optio
     : bandCount_(options.bandCount), viewCount_(static_cast<std::size_t>(options.viewCount)) {
     PRT_ASSERT(bandCount_ >= 1 && options.viewCount >= 2,
                "there is something to be linear between");
+    const HorizonFit fit(bandCount_, options.horizonWeight);
     rows_.reserve(viewCount_ * 3 * uprightCount(bandCount_));
     for (std::size_t view = 0; view < viewCount_; ++view) {
-        const auto all =
+        auto all =
             projectBrdfView(brdf, tableView(view, viewCount_), bandCount_, options.quadrature);
-        for (const std::vector<double>& coefficients : all)
+        for (std::vector<double>& coefficients : all) {
+            fit.apply(coefficients);
             for (int l = 0; l < bandCount_; ++l)
                 for (int m = 0; m <= l; ++m)
                     rows_.push_back(
                         static_cast<float>(coefficients[static_cast<std::size_t>(shIndex(l, m))]));
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "prt/brdf/horizon_fit.h"
 #include "prt/brdf/lobe_quadrature.h"
 
 namespace prt {
@@ -11,11 +12,13 @@ namespace prt {
 struct BrdfViewTableOptions {
     int bandCount = 5;   ///< n of incident radiance
     int viewCount = 32;  ///< of the angle to the normal, finer at the horizon; at least 2
+    double horizonWeight = kHorizonFitWeight;  ///< ε of HorizonFit; 1: not fitted
     LobeQuadratureOptions quadrature = {};
 };
 
-/// What one BRDF makes of incident radiance for one view, f_i(ω_o) of projectBrdfView, from a table
-/// of θ_o, linear between. GltfViewTable is the same for all glTF materials.
+/// What one BRDF makes of incident radiance for one view: f_i(ω_o) of projectBrdfView, fitted for
+/// radiance that is 0 below the horizon (HorizonFit), from a table of θ_o, linear between.
+/// GltfViewTable is the same for all glTF materials.
 ///
 /// Of a measured BRDF that is not mirror symmetric this is the mean of itself and its mirror image.
 class BrdfViewTable {

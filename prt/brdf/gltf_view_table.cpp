@@ -16,6 +16,7 @@ GltfViewTable::GltfViewTable(const GltfViewTableOptions& options)
       elementCount_(uprightCount(bandCount_)) {
     PRT_ASSERT(bandCount_ >= 1 && options.levelCount >= 2 && options.viewCount >= 2,
                "there is something to be linear between");
+    const HorizonFit fit(bandCount_, options.horizonWeight);
     elements_.reserve(levelCount_ * viewCount_ * elementCount_);
     for (std::size_t level = 0; level < levelCount_; ++level) {
         const double roughness = static_cast<double>(level) / static_cast<double>(levelCount_ - 1);
@@ -25,7 +26,9 @@ GltfViewTable::GltfViewTable(const GltfViewTableOptions& options)
                       GgxLobe{.f0 = Vec3d(0.0, 1.0, 0.0), .alpha = roughness * roughness}}};
         for (std::size_t view = 0; view < viewCount_; ++view) {
             const Vec3d direction = tableView(view, viewCount_);
-            const auto all = projectBrdfView(brdf, direction, bandCount_, options.quadrature);
+            auto all = projectBrdfView(brdf, direction, bandCount_, options.quadrature);
+            for (std::vector<double>& coefficients : all)
+                fit.apply(coefficients);
             for (int l = 0; l < bandCount_; ++l)
                 for (int m = 0; m <= l; ++m) {
                     const auto i = static_cast<std::size_t>(shIndex(l, m));

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "prt/brdf/horizon_fit.h"
 #include "prt/brdf/lobe_quadrature.h"
 
 namespace prt {
@@ -12,13 +13,14 @@ struct GltfViewTableOptions {
     int bandCount = 5;    ///< n of incident radiance
     int levelCount = 32;  ///< of roughness from 0 to 1, at least 2
     int viewCount = 32;   ///< of the angle to the normal, finer at the horizon; at least 2
+    double horizonWeight = kHorizonFitWeight;  ///< ε of HorizonFit; 1: not fitted
     LobeQuadratureOptions quadrature = {};
 };
 
-/// What any glTF material (makeGltfBrdf) makes of incident radiance for one view, f_i(ω_o) of
-/// projectBrdfView, from a table of roughness and θ_o, linear between. Turned to azimuth 0 a
-/// view has only coefficients of m ≥ 0, and Schlick's F is linear in F0: two tables serve all
-/// materials, and one their diffuse lobes.
+/// What any glTF material (makeGltfBrdf) makes of incident radiance for one view: f_i(ω_o) of
+/// projectBrdfView, fitted for radiance that is 0 below the horizon (HorizonFit), from a table of
+/// roughness and θ_o, linear between. Turned to azimuth 0 a view has only coefficients of m ≥ 0,
+/// and Schlick's F is linear in F0: two tables serve all materials, and one their diffuse lobes.
 class GltfViewTable {
   public:
     explicit GltfViewTable(const GltfViewTableOptions& options = {});

@@ -21,7 +21,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr LobeQuadratureOptions kCoarse{
     .polarNodeCount = 32, .azimuthNodeCount = 24, .viewNodeCount = 16};
 
-TEST(BandLimit, OfLambertIsThatOfTheClampedCosineAndTheHemisphere) {
+TEST(BandLimit, OfALambertMatrixIsThatOfTheClampedCosineAndTheHemisphere) {
     constexpr double kRounding = 1e-6;  // √ of a difference of nearly equal sums
     const Brdf lambert{.lobes = {LambertLobe{Vec3d(0.8, 0.5, 0.2)}}};
     for (const int bandCount : {1, 2, 3, 5, 8}) {
@@ -33,7 +33,6 @@ TEST(BandLimit, OfLambertIsThatOfTheClampedCosineAndTheHemisphere) {
         const BandLimitError error = measureBandLimitError(
             lambert, {.incidentBandCount = bandCount, .viewBandCount = bandCount});
         const double heldOfCosine = cosine / (2.0 * kPi / 3.0);
-        EXPECT_NEAR(error.incident, std::sqrt(1.0 - heldOfCosine), kRounding);
         EXPECT_NEAR(error.matrix, std::sqrt(1.0 - heldOfCosine * hemisphere / (2.0 * kPi)),
                     kRounding);
     }
@@ -82,7 +81,40 @@ TEST(BandLimit, IsTheNormOfWhatReconstructionMisses) {
                         measureSlowly(brdf, bandCount), kSlowQuadrature);
 }
 
+/// The same above the horizon, of fitted coefficients.
+double measureFittedSlowly(const Brdf& brdf, int bandCount) {
+    const HorizonFit fit(bandCount);
+    double rest = 0.0, whole = 0.0;
+    for (const ViewNode& node : viewNodes({})) {
+        std::vector<double> fitted = projectBrdfView(brdf, node.view, bandCount)[0];
+        fit.apply(fitted);
+        for (const SphereNode& incident : sphereQuadrature(79)) {
+            if (incident.direction.z <= 0.0) continue;
+            const double g =
+                evaluateBrdf(brdf, incident.direction, node.view).x * incident.direction.z;
+            const double held = reconstructSh(fitted, bandCount, incident.direction);
+            const double weight = incident.weight * node.solidAngle;
+            rest += weight * (g - held) * (g - held);
+            whole += weight * g * g;
+        }
+    }
+    return std::sqrt(rest / whole);
+}
+
+TEST(BandLimit, OfIncidentRadianceIsTheNormOfWhatTheFitMissesAboveTheHorizon) {
+    constexpr double kSlowQuadrature = 2e-3;
+    const Brdf paint{
+        .lobes = {LambertLobe{Vec3d(0.4)}, PhongLobe{.albedo = Vec3d(0.5), .exponent = 6.0}}};
+    for (const Brdf& brdf : {paint, makeGgx(0.8)})
+        for (const int bandCount : {2, 5})
+            EXPECT_NEAR(measureBandLimitError(brdf, {.incidentBandCount = bandCount}).incident,
+                        measureFittedSlowly(brdf, bandCount), kSlowQuadrature);
+}
+
 TEST(BandLimit, MoreBandsNeverLoseMoreAndSmootherLobesMore) {
+    // More bands of a fit may give so much away above the horizon for less below: of the cosine,
+    // which two bands hold, and no other.
+    constexpr double kBelow = 0.014;
     for (const auto& [name, brdf] : test::makeAllKinds()) {
         if (name == "measured") continue;
         BandLimitError last{.incident = 1.0, .matrix = 1.0};
@@ -91,7 +123,7 @@ TEST(BandLimit, MoreBandsNeverLoseMoreAndSmootherLobesMore) {
                 measureBandLimitError(brdf, {.incidentBandCount = bandCount,
                                              .viewBandCount = bandCount,
                                              .quadrature = kCoarse});
-            EXPECT_LE(error.incident, last.incident) << name << " " << bandCount;
+            EXPECT_LE(error.incident, last.incident + kBelow) << name << " " << bandCount;
             EXPECT_LE(error.matrix, last.matrix) << name << " " << bandCount;
             EXPECT_LE(error.incident, error.matrix) << name << " " << bandCount;
             last = error;

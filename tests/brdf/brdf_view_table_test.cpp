@@ -23,7 +23,8 @@ TEST(BrdfViewTable, HoldsEveryKindOfBrdfFromEveryView) {
     constexpr double kInterpolation = 6e-3;
     RandomStream random(1, 0);
     for (const auto& [name, brdf] : test::makeAllKinds()) {
-        const BrdfViewTable table(brdf, {.bandCount = 4, .viewCount = 24, .quadrature = kCoarse});
+        const BrdfViewTable table(
+            brdf, {.bandCount = 4, .viewCount = 24, .horizonWeight = 1.0, .quadrature = kCoarse});
         ASSERT_EQ(table.bandCount(), 4);
         double largest = 0.0;
         for (int i = 0; i < 8; ++i) {
@@ -61,7 +62,8 @@ TEST(BrdfViewTable, IsWhatTheTableOfGltfMaterialsSaysOfOneOfThem) {
 
 TEST(BrdfViewTable, HasRowsOfTheViewsItWasMadeFor) {
     const Brdf brdf = test::makeGgx(0.6);
-    const BrdfViewTable table(brdf, {.bandCount = 3, .viewCount = 9, .quadrature = kCoarse});
+    const BrdfViewTable table(
+        brdf, {.bandCount = 3, .viewCount = 9, .horizonWeight = 1.0, .quadrature = kCoarse});
     ASSERT_EQ(table.viewCount(), 9u);
     for (std::size_t view = 0; view < 9; ++view) {
         const Vec3d direction = tableView(view, 9);

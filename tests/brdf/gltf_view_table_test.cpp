@@ -17,8 +17,11 @@ constexpr LobeQuadratureOptions kCoarse{.polarNodeCount = 32, .azimuthNodeCount 
 TEST(GltfViewTable, HoldsEveryMaterialFromEveryView) {
     // Linear between 24 roughnesses and 24 angles, beside a largest coefficient of ½.
     constexpr double kInterpolation = 4e-3;
-    const GltfViewTable table(
-        {.bandCount = 4, .levelCount = 24, .viewCount = 24, .quadrature = kCoarse});
+    const GltfViewTable table({.bandCount = 4,
+                               .levelCount = 24,
+                               .viewCount = 24,
+                               .horizonWeight = 1.0,
+                               .quadrature = kCoarse});
     RandomStream random(1, 0);
     double largest = 0.0;
     for (int i = 0; i < 40; ++i) {

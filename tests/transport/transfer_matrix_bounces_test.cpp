@@ -202,11 +202,12 @@ TEST(TransferMatrixBounces, OfABowlHaveItsClosedFormFromEveryDirection) {  // A9
     }
 }
 
-// The materials and views here stand in it, so that nothing is interpolated.
+// The materials and views here stand in it, so that nothing is interpolated, and nothing fitted.
 constexpr GltfViewTableOptions kMaterialTable{
     .bandCount = 3,
     .levelCount = 11,
     .viewCount = 6,
+    .horizonWeight = 1.0,
     .quadrature = {.polarNodeCount = 32, .azimuthNodeCount = 16}};
 
 TEST(TransferMatrixBounces, FollowGltfMaterials) {
