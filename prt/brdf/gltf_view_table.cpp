@@ -40,8 +40,10 @@ GltfViewTable::GltfViewTable(const GltfViewTableOptions& options)
     }
 }
 
-const GltfViewTable::Element* GltfViewTable::elementsAt(std::size_t level, std::size_t view) const {
-    return &elements_[(level * viewCount_ + view) * elementCount_];
+std::span<const GltfViewTable::Element> GltfViewTable::row(std::size_t level,
+                                                           std::size_t view) const {
+    PRT_ASSERT(level < levelCount_ && view < viewCount_, "the table has this level and view");
+    return std::span(elements_).subspan((level * viewCount_ + view) * elementCount_, elementCount_);
 }
 
 void GltfViewTable::addResponse(const Vec3f& baseColor, const MetallicRoughness& surface,
@@ -50,9 +52,9 @@ void GltfViewTable::addResponse(const Vec3f& baseColor, const MetallicRoughness&
     PRT_ASSERT(response.size() == 3 * coefficientCount, "n² numbers a channel");
     const TablePlace level = placeBetween(std::clamp(surface.roughness, 0.0f, 1.0f), levelCount_);
     const TablePlace angle = placeView(view.z, viewCount_);
-    const std::array<const Element*, 4> corners = {
-        elementsAt(level.first, angle.first), elementsAt(level.first, angle.first + 1),
-        elementsAt(level.first + 1, angle.first), elementsAt(level.first + 1, angle.first + 1)};
+    const std::array<std::span<const Element>, 4> corners = {
+        row(level.first, angle.first), row(level.first, angle.first + 1),
+        row(level.first + 1, angle.first), row(level.first + 1, angle.first + 1)};
     const std::array<float, 4> weights = {
         (1.0f - level.share) * (1.0f - angle.share), (1.0f - level.share) * angle.share,
         level.share * (1.0f - angle.share), level.share * angle.share};

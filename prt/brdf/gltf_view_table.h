@@ -26,6 +26,8 @@ class GltfViewTable {
     explicit GltfViewTable(const GltfViewTableOptions& options = {});
 
     int bandCount() const { return bandCount_; }
+    std::size_t levelCount() const { return levelCount_; }
+    std::size_t viewCount() const { return viewCount_; }
 
     /// @param baseColor  linear, in [0, 1]
     /// @param view       ω_o, unit, local frame; below the horizon it counts as at it
@@ -33,17 +35,19 @@ class GltfViewTable {
     void addResponse(const Vec3f& baseColor, const MetallicRoughness& surface, const Vec3f& view,
                      std::span<float> response) const;
 
-  private:
     /// A coefficient (l, m ≥ 0) of GGX with F0 = 0 and F0 = 1, and of a layered Lambert lobe of
-    /// albedo 1.
+    /// albedo 1, which no roughness changes.
     struct Element {
         float dark = 0.0f;
         float bright = 0.0f;
         float diffuse = 0.0f;
     };
 
-    const Element* elementsAt(std::size_t level, std::size_t view) const;
+    /// What the table holds for a level of roughness (placeBetween) and a view (view_angle.h),
+    /// [uprightIndex].
+    std::span<const Element> row(std::size_t level, std::size_t view) const;
 
+  private:
     int bandCount_;
     std::size_t levelCount_;
     std::size_t viewCount_;

@@ -20,8 +20,8 @@ TablePlace placeBetween(float x, std::size_t count) {
 }
 
 TablePlace placeView(float cosine, std::size_t viewCount) {
-    const float angle = std::acos(std::clamp(cosine, 0.0f, 1.0f));
-    const float rest = std::max(0.0f, 1.0f - angle * (2.0f * std::numbers::inv_pi_v<float>));
+    const float elevation = std::asin(std::clamp(cosine, 0.0f, 1.0f));
+    const float rest = std::min(elevation * (2.0f * std::numbers::inv_pi_v<float>), 1.0f);
     return placeBetween(1.0f - std::sqrt(rest), viewCount);
 }
 

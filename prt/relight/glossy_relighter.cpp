@@ -4,67 +4,69 @@
 #include "prt/relight/glossy_relighter.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <string>
+#include <optional>
+#include <utility>
+#include <variant>
 
 #include "prt/base/assert.h"
-#include "prt/base/error.h"
 #include "prt/basis/sh.h"
-#include "prt/basis/zonal.h"
-#include "prt/math/frame.h"
+#include "prt/relight/cluster_matrices.h"
+#include "prt/relight/matrix_blocks.h"
+#include "prt/relight/receiver_lobes.h"
+#include "prt/relight/require_layer.h"
 
 namespace prt {
 namespace {
 
-const CompressedLayer& requireLayer(const CompressedTransfer& transfer, Transport transport) {
-    if (const CompressedLayer* layer = transfer.findLayer(transport)) return *layer;
-    std::string available;
-    for (const CompressedLayer& layer : transfer.layers)
-        available +=
-            (available.empty() ? "it has " : ", ") + std::string(transportName(layer.transport));
-    throw Error(ErrorCode::invalidOption,
-                "the asset holds no " + std::string(transportName(transport)) + " transfer", {},
-                available);
-}
+constexpr std::size_t kBlockSize = kMatrixBlockSize;
+static_assert(kGlossyPartSize % kBlockSize == 0 && kBlockSize == kReflectBlockSize);
 
-/// The matrices of a layer, decoded.
-struct Matrices {
-    std::size_t channelCount = 0;
-    std::size_t rowCount = 0;     ///< n_in²
-    std::size_t columnCount = 0;  ///< n²
-    std::vector<float> values{};  ///< [receiver][channel][i][j]
+/// A layer of matrices, however it is stored.
+class StoredMatrices {
+  public:
+    StoredMatrices(const CompressedTransfer& transfer, const CompressedLayer& layer)
+        : matrices_(makeMatrices(transfer, layer)) {}
 
-    Matrices() = default;
-    Matrices(const CompressedTransfer& transfer, const CompressedLayer& layer)
-        : channelCount(static_cast<std::size_t>(layer.channelCount)),
-          rowCount(static_cast<std::size_t>(shCoefficientCount(layer.incidentBandCount))),
-          columnCount(static_cast<std::size_t>(shCoefficientCount(transfer.bandCount))),
-          values(expandLayer(layer)) {}
-
-    std::span<const float> row(std::size_t receiver, std::size_t color, std::size_t i) const {
-        const std::size_t channel = channelCount == 3 ? color : 0;
-        return std::span(values).subspan(
-            ((receiver * channelCount + channel) * rowCount + i) * columnCount, columnCount);
+    std::size_t byteCount() const {
+        return std::visit([](const auto& matrices) { return matrices.byteCount(); }, matrices_);
+    }
+    AlignedBytes fold(const Lighting& lighting) const {
+        return std::visit([&](const auto& matrices) { return matrices.fold(lighting); }, matrices_);
+    }
+    /// @param begin  of a block
+    void multiplyBlocks(const AlignedBytes& light, std::size_t begin, std::size_t blockCount,
+                        std::size_t stride, float* incident) const {
+        std::visit(
+            [&](const auto& matrices) {
+                matrices.multiply(light, begin, blockCount, stride, incident);
+            },
+            matrices_);
     }
 
-    double multiply(std::size_t receiver, std::size_t color, std::size_t i,
-                    const Lighting& lighting) const {
-        const std::span<const float> matrixRow = row(receiver, color, i);
-        double sum = 0.0;
-        for (std::size_t j = 0; j < lighting.coefficients.size(); ++j)
-            sum += static_cast<double>(matrixRow[j]) *
-                   lighting.coefficients[j][static_cast<int>(color)];
-        return sum;
+  private:
+    using Matrices = std::variant<MatrixBlocks, ClusterMatrices>;
+
+    static Matrices makeMatrices(const CompressedTransfer& transfer, const CompressedLayer& layer) {
+        PRT_ASSERT(transfer.bandCount >= 1 && transfer.bandCount <= kMaxBandCount &&
+                       layer.incidentBandCount >= 1 && layer.incidentBandCount <= kMaxBandCount,
+                   "band counts of the kernels");
+        PRT_ASSERT(layer.channelCount == 1 || layer.channelCount == 3, "grey or coloured transfer");
+        PRT_ASSERT(isComplete(transfer, layer), "transfer for each receiver");
+        if (layer.bases) return ClusterMatrices(layer, transfer.bandCount);
+        return MatrixBlocks(layer.table, transfer.bandCount, layer.incidentBandCount,
+                            layer.channelCount);
     }
+
+    Matrices matrices_;
 };
 
-double dot(std::span<const float> a, std::span<const float> b) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
-    return sum;
+/// Which receivers are split, if the asset can tell what comes straight from the light.
+LobeSplit chooseSplit(const CompressedTransfer& transfer, const CompressedLayer& layer,
+                      double leastRoughness) {
+    const CompressedLayer* visibility = transfer.findLayer(Transport::glossyShadowed);
+    if (visibility && visibility->incidentBandCount != layer.incidentBandCount)
+        visibility = nullptr;
+    return {visibility, leastRoughness, visibility != &layer};
 }
 
 }  // namespace
@@ -72,64 +74,63 @@ double dot(std::span<const float> a, std::span<const float> b) {
 struct GlossyRelighter::State {
     int bandCount = 0;
     int incidentBandCount = 0;
-    std::vector<ReceiverSurface> receivers;
-    std::shared_ptr<const GltfViewTable> views;
-    Matrices matrices;
-    Matrices visibility;  ///< empty unless some receiver is split
-    double leastRoughness = 0.0;
-    bool isVisibilityAlone = false;
+    ReceiverLobes lobes;
+    StoredMatrices matrices;
+    std::optional<StoredMatrices> direct;  ///< what comes straight from the light, where bounced
+                                           ///< light must be told from it
 
-    bool isSplit(std::size_t receiver) const {
-        return !visibility.values.empty() &&
-               static_cast<double>(receivers[receiver].surface.roughness) < leastRoughness;
+    /// A light for both.
+    struct FoldedLights {
+        AlignedBytes all;
+        AlignedBytes direct;
+    };
+
+    FoldedLights fold(const Lighting& lighting) const {
+        PRT_ASSERT(lighting.bandCount <= bandCount, "light has no more bands than transfer");
+        PRT_ASSERT(lighting.coefficients.size() ==
+                       static_cast<std::size_t>(shCoefficientCount(lighting.bandCount)),
+                   "n² coefficients of light");
+        return {matrices.fold(lighting), direct ? direct->fold(lighting) : AlignedBytes()};
     }
 
-    /// f_i of an albedo-free lobe: [i].
-    std::vector<float> response(float baseColor, const MetallicRoughness& surface,
-                                const Vec3f& view) const {
-        std::vector<float> channels(3 * matrices.rowCount, 0.0f);
-        views->addResponse(Vec3f(baseColor), surface, view, channels);
-        channels.resize(matrices.rowCount);
-        return channels;
+    /// @param incident  whole blocks, written
+    void receiveBlocks(const FoldedLights& lights, std::size_t begin, std::size_t blockCount,
+                       float* incident) const {
+        matrices.multiplyBlocks(lights.all, begin, blockCount, lobes.incidentSize(), incident);
+        for (std::size_t block = 0; direct && block < blockCount; ++block)
+            tellBounced(lights.direct, begin + block * kBlockSize,
+                        incident + block * kBlockSize * lobes.incidentSize());
     }
 
-    float mirrorVisibility(std::size_t receiver, std::span<const float> bright) const {
-        const std::vector<double> open = capZonal(incidentBandCount, 0.5 * std::numbers::pi);
-        double seen = 0.0;
-        double unshadowed = 0.0;
-        for (std::size_t i = 0; i < bright.size(); ++i)
-            seen += static_cast<double>(bright[i]) *
-                    static_cast<double>(visibility.row(receiver, 0, i)[0]) *
-                    std::sqrt(4.0 * std::numbers::pi);
-        for (int l = 0; l < incidentBandCount; ++l)
-            unshadowed += static_cast<double>(bright[static_cast<std::size_t>(shIndex(l, 0))]) *
-                          open[static_cast<std::size_t>(l)];
-        if (!(unshadowed > 0.0)) return 0.0f;
-        return static_cast<float>(std::clamp(seen / unshadowed, 0.0, 1.0));
+    /// Puts l − l⁰ behind l, in a block where it is asked for, and else zeros.
+    void tellBounced(const AlignedBytes& light, std::size_t begin, float* incident) const {
+        const std::size_t size = 3 * lobes.rowSize();
+        const std::size_t count = std::min(kBlockSize, lobes.receiverCount() - begin);
+        bool isAsked = false;
+        for (std::size_t r = 0; r < count; ++r)
+            isAsked = isAsked || lobes.isSplit(begin + r);
+        if (isAsked) direct->multiplyBlocks(light, begin, 1, lobes.incidentSize(), incident + size);
+        for (std::size_t r = 0; r < count; ++r, incident += 2 * size)
+            for (std::size_t i = 0; i < size; ++i)
+                incident[size + i] = isAsked ? incident[i] - incident[size + i] : 0.0f;
     }
 };
 
 GlossyRelighter::GlossyRelighter(const CompressedTransfer& transfer, Transport transport,
-                                 std::vector<ReceiverSurface> receivers,
-                                 std::shared_ptr<const GltfViewTable> views,
-                                 const GlossyRelightOptions& options)
-    : state_(std::make_unique<State>()) {
+                                 std::span<const ReceiverSurface> receivers,
+                                 const GltfViewTable& views, const GlossyRelightOptions& options) {
     const CompressedLayer& layer = requireLayer(transfer, transport);
     PRT_ASSERT(isGlossy(transport), "the layer is of matrices");
-    PRT_ASSERT(isComplete(transfer, layer), "transfer for each receiver");
     PRT_ASSERT(receivers.size() == transfer.receiverCount, "one surface a receiver");
-    PRT_ASSERT(views && views->bandCount() == layer.incidentBandCount,
+    PRT_ASSERT(views.bandCount() == layer.incidentBandCount,
                "views for the bands of incident radiance");
-    state_->bandCount = transfer.bandCount;
-    state_->incidentBandCount = layer.incidentBandCount;
-    state_->receivers = std::move(receivers);
-    state_->views = std::move(views);
-    state_->matrices = Matrices(transfer, layer);
-    state_->leastRoughness = options.leastRoughness;
-    state_->isVisibilityAlone = transport == Transport::glossyShadowed;
-    const CompressedLayer* visibility = transfer.findLayer(Transport::glossyShadowed);
-    if (visibility && options.leastRoughness > 0.0)
-        state_->visibility = Matrices(transfer, *visibility);
+    const LobeSplit split = chooseSplit(transfer, layer, options.leastRoughness);
+    state_ = std::make_unique<State>(
+        State{transfer.bandCount, layer.incidentBandCount,
+              ReceiverLobes(receivers, views, options.materialTables, split),
+              StoredMatrices(transfer, layer), std::nullopt});
+    if (state_->lobes.incidentSize() > 3 * state_->lobes.rowSize())
+        state_->direct.emplace(transfer, *split.visibility);
 }
 
 GlossyRelighter::~GlossyRelighter() = default;
@@ -137,7 +138,7 @@ GlossyRelighter::GlossyRelighter(GlossyRelighter&&) noexcept = default;
 GlossyRelighter& GlossyRelighter::operator=(GlossyRelighter&&) noexcept = default;
 
 std::size_t GlossyRelighter::receiverCount() const {
-    return state_->receivers.size();
+    return state_->lobes.receiverCount();
 }
 
 int GlossyRelighter::bandCount() const {
@@ -149,71 +150,56 @@ int GlossyRelighter::incidentBandCount() const {
 }
 
 std::size_t GlossyRelighter::transferBytes() const {
-    return std::span(state_->matrices.values).size_bytes();
+    return state_->matrices.byteCount() + (state_->direct ? state_->direct->byteCount() : 0);
 }
 
 std::size_t GlossyRelighter::incidentSize() const {
-    return 6 * state_->matrices.rowCount;
+    return state_->lobes.incidentSize();
 }
 
 void GlossyRelighter::receive(const Lighting& lighting, std::size_t begin,
                               std::span<float> incident) const {
-    PRT_ASSERT(lighting.bandCount <= bandCount(), "light has no more bands than transfer");
-    const std::size_t rowCount = state_->matrices.rowCount;
-    for (std::size_t at = 0; at < incident.size(); at += incidentSize()) {
-        const std::size_t receiver = begin + at / incidentSize();
-        for (std::size_t color = 0; color < 3; ++color)
-            for (std::size_t i = 0; i < rowCount; ++i) {
-                const double all = state_->matrices.multiply(receiver, color, i, lighting);
-                double bounced = all;
-                if (state_->isSplit(receiver))
-                    bounced = state_->isVisibilityAlone
-                                  ? 0.0
-                                  : all - state_->visibility.multiply(receiver, color, i, lighting);
-                incident[at + color * rowCount + i] = static_cast<float>(all);
-                incident[at + (3 + color) * rowCount + i] = static_cast<float>(bounced);
-            }
-    }
+    const std::size_t count = checkPart(begin, incident.size() / incidentSize());
+    PRT_ASSERT(incident.size() == count * incidentSize(), "incident radiance of whole receivers");
+    const State::FoldedLights lights = state_->fold(lighting);
+    const std::size_t wholeBlocks = count / kBlockSize;
+    state_->receiveBlocks(lights, begin, wholeBlocks, incident.data());
+
+    // What ends within a block is copied from one.
+    const std::size_t done = wholeBlocks * kBlockSize;
+    if (done == count) return;
+    std::vector<float> block(kBlockSize * incidentSize());
+    state_->receiveBlocks(lights, begin + done, 1, block.data());
+    std::copy_n(block.data(), (count - done) * incidentSize(),
+                incident.data() + done * incidentSize());
 }
 
 void GlossyRelighter::reflect(const Vec3f& eye, std::size_t begin, std::span<const float> incident,
                               std::span<ExitRadiance> radiance) const {
-    PRT_ASSERT(incident.size() == radiance.size() * incidentSize(), "incident radiance of all");
-    const std::size_t rowCount = state_->matrices.rowCount;
-    for (std::size_t r = 0; r < radiance.size(); ++r) {
-        const ReceiverSurface& receiver = state_->receivers[begin + r];
-        const float roughness = receiver.surface.roughness;
-        const float metallic = receiver.surface.metallic;
-        const Vec3f view =
-            frameFromNormal(receiver.normal).localFromWorld((eye - receiver.position).normalized());
-        const auto dark = state_->response(0.0f, {1.0f, roughness}, view);
-        const auto bright = state_->response(1.0f, {1.0f, roughness}, view);
-        const auto layered = state_->response(1.0f, {0.0f, roughness}, view);
-        const auto coat = state_->response(0.0f, {0.0f, roughness}, view);
-        ExitRadiance& exit = radiance[r];
-        for (std::size_t color = 0; color < 3; ++color) {
-            const auto all = incident.subspan(r * incidentSize() + color * rowCount, rowCount);
-            const auto bounced =
-                incident.subspan(r * incidentSize() + (3 + color) * rowCount, rowCount);
-            const double diffuse = dot(layered, all) - dot(coat, all);
-            const double darkPart = dot(dark, bounced);
-            const double range = dot(bright, bounced) - darkPart;
-            const auto m = static_cast<double>(metallic);
-            exit.perBaseColor[static_cast<int>(color)] =
-                static_cast<float>((1.0 - m) * diffuse + m * range);
-            exit.constant[static_cast<int>(color)] =
-                static_cast<float>(darkPart + 0.04 * (1.0 - m) * range);
-        }
-        exit.mirrorVisibility =
-            state_->isSplit(begin + r) ? state_->mirrorVisibility(begin + r, bright) : 0.0f;
-    }
+    checkPart(begin, radiance.size());
+    PRT_ASSERT(incident.size() == radiance.size() * incidentSize(),
+               "incident radiance of the same receivers");
+    state_->lobes.reflect(eye, begin, incident.data(), radiance);
 }
 
 void GlossyRelighter::relight(const Lighting& lighting, const Vec3f& eye, std::size_t begin,
                               std::span<ExitRadiance> radiance) const {
-    std::vector<float> incident(radiance.size() * incidentSize());
-    receive(lighting, begin, incident);
-    reflect(eye, begin, incident, radiance);
+    const std::size_t count = checkPart(begin, radiance.size());
+    const State::FoldedLights lights = state_->fold(lighting);
+    const AlignedBytes bytes = allocateAlignedBytes(kBlockSize * incidentSize() * sizeof(float));
+    auto* const incident = reinterpret_cast<float*>(bytes.get());
+    for (std::size_t done = 0; done < count; done += kBlockSize) {
+        const auto block = radiance.subspan(done, std::min(kBlockSize, count - done));
+        state_->receiveBlocks(lights, begin + done, 1, incident);
+        state_->lobes.reflect(eye, begin + done, incident, block);
+    }
+}
+
+std::size_t GlossyRelighter::checkPart(std::size_t begin, std::size_t count) const {
+    PRT_ASSERT(begin % kGlossyPartSize == 0, "a part begins where parts may");
+    PRT_ASSERT(begin <= receiverCount() && count <= receiverCount() - begin,
+               "a part lies within the receivers");
+    return count;
 }
 
 }  // namespace prt

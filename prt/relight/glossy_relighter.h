@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "prt/brdf/brdf_view_table.h"
 #include "prt/brdf/gltf_view_table.h"
 #include "prt/light/lighting.h"
 #include "prt/relight/exit_radiance.h"
@@ -12,8 +13,6 @@
 #include "prt/transfer/compressed_transfer.h"
 
 namespace prt {
-
-class BrdfViewTable;
 
 struct GlossyRelightOptions {
     /// Receivers of glTF materials smoother than this are split (below), where there is a layer
@@ -53,8 +52,7 @@ class GlossyRelighter {
     /// @param views      for the bands of incident radiance of that layer
     /// @throws Error     invalidOption if there is no such layer, outOfMemory
     GlossyRelighter(const CompressedTransfer& transfer, Transport transport,
-                    std::vector<ReceiverSurface> receivers,
-                    std::shared_ptr<const GltfViewTable> views,
+                    std::span<const ReceiverSurface> receivers, const GltfViewTable& views,
                     const GlossyRelightOptions& options = {});
     ~GlossyRelighter();
     GlossyRelighter(GlossyRelighter&&) noexcept;
@@ -91,6 +89,8 @@ class GlossyRelighter {
 
   private:
     struct State;
+    std::size_t checkPart(std::size_t begin, std::size_t count) const;
+
     std::unique_ptr<State> state_;
 };
 

@@ -3,12 +3,11 @@
 //   [Sloan03]  Clustered principal components for precomputed radiance transfer
 #include "prt/relight/relighter.h"
 
-#include <string>
 #include <variant>
 
 #include "prt/base/assert.h"
-#include "prt/base/error.h"
 #include "prt/relight/cluster_blocks.h"
+#include "prt/relight/require_layer.h"
 #include "prt/relight/vector_blocks.h"
 
 namespace prt {
@@ -16,17 +15,6 @@ namespace {
 
 /// Results larger than this leave a core's own cache before anybody reads them.
 constexpr std::size_t kStreamingBytes = std::size_t{2} << 20;
-
-const CompressedLayer& requireLayer(const CompressedTransfer& transfer, Transport transport) {
-    if (const CompressedLayer* layer = transfer.findLayer(transport)) return *layer;
-    std::string available;
-    for (const CompressedLayer& layer : transfer.layers)
-        available +=
-            (available.empty() ? "it has " : ", ") + std::string(transportName(layer.transport));
-    throw Error(ErrorCode::invalidOption,
-                "the asset holds no " + std::string(transportName(transport)) + " transfer", {},
-                available);
-}
 
 std::variant<VectorBlocks, ClusterBlocks> makeBlocks(const CompressedTransfer& transfer,
                                                      const CompressedLayer& layer) {

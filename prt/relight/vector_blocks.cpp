@@ -1,5 +1,3 @@
-// Bibliography
-//   [Kautz04]  Integer transfer with a scale and a bias for each coefficient
 #include "prt/relight/vector_blocks.h"
 
 #include <algorithm>
@@ -61,20 +59,6 @@ void VectorBlocks::pack(const StoredTable& vectors) {
 
 std::size_t VectorBlocks::byteCount() const {
     return (vectorCount_ + kRelightBlockSize - 1) / kRelightBlockSize * blockBytes_;
-}
-
-std::vector<VectorBlocks::StoredRange> VectorBlocks::storedRanges(const StoredTable& vectors) {
-    const std::size_t rowCount = vectors.numbers.columnCount();
-    const double largest = largestStored(vectors.encoding);
-    std::vector<StoredRange> ranges(rowCount, {1.0 / largest, 0.0});
-    if (vectors.encoding == TransferEncoding::float32 || vectors.scale.empty()) return ranges;
-    PRT_ASSERT(vectors.scale.size() == rowCount && vectors.bias.size() == rowCount,
-               "a scale and a bias for each channel and coefficient");
-    for (std::size_t row = 0; row < rowCount; ++row) {
-        ranges[row] = {static_cast<double>(vectors.scale[row]) / largest,
-                       static_cast<double>(vectors.bias[row])};
-    }
-    return ranges;
 }
 
 FoldedLight VectorBlocks::fold(const Lighting& lighting) const {

@@ -7,6 +7,7 @@
 #include "prt/light/lighting.h"
 #include "prt/relight/aligned_bytes.h"
 #include "prt/relight/relight_kernel.h"
+#include "prt/relight/stored_range.h"
 #include "prt/transfer/stored_table.h"
 
 namespace prt {
@@ -34,13 +35,6 @@ class VectorBlocks {
                  std::span<Vec3f> products) const;
 
   private:
-    /// The factor and the summand that make a coefficient of a stored number.
-    struct StoredRange {
-        double scale = 1.0;
-        double bias = 0.0;
-    };
-
-    static std::vector<StoredRange> storedRanges(const StoredTable& vectors);
     void pack(const StoredTable& vectors);
     FoldedLight fold(const Lighting& lighting) const;
 

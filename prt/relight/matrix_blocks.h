@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "prt/light/lighting.h"
+#include "prt/relight/aligned_bytes.h"
+#include "prt/relight/matrix_kernel.h"
+#include "prt/relight/stored_range.h"
+#include "prt/transfer/stored_table.h"
+
+namespace prt {
+
+/// Transfer matrices, to be multiplied by one light after the other:
+///
+///   l_i = Σ_j M_ij L_j  =  Σ_j b_ij L_j  +  Σ_j q_ij (s_ij L_j)
+///
+/// with q as their table stores them, so that one pass over memory serves red, green and blue, and
+/// reads no more than is stored.
+class MatrixBlocks {
+  public:
+    /// @param matrices  rows of [channel][i][j]
+    /// @throws Error    outOfMemory
+    MatrixBlocks(const StoredTable& matrices, int bandCount, int incidentBandCount,
+                 int channelCount);
+
+    std::size_t matrixCount() const { return matrixCount_; }
+    /// Of what is read for all products; the last block counts whole.
+    std::size_t byteCount() const;
+
+    /// A light as multiply() takes it, s_ij L_j and Σ_j b_ij L_j.
+    ///
+    /// @param lighting  with at most as many bands as there are columns for
+    /// @throws Error    outOfMemory
+    AlignedBytes fold(const Lighting& lighting) const;
+
+    /// @param light     folded
+    /// @param begin     a multiple of kMatrixBlockSize
+    /// @param stride    floats from one matrix's incident radiance to the next's
+    /// @param incident  [matrix][3][padded row] of whole blocks from begin on, written; padded with
+    ///                  zeros
+    void multiply(const AlignedBytes& light, std::size_t begin, std::size_t blockCount,
+                  std::size_t stride, float* incident) const;
+
+  private:
+    template <class Stored>
+    void pack(const CoefficientTable& numbers);
+
+    std::size_t matrixCount_ = 0;
+    std::vector<RowGroup> groups_;
+    std::vector<StoredRange> ranges_;  ///< [channel][i][j]
+    AlignedBytes bytes_;
+    MatrixView view_;
+};
+
+}  // namespace prt

@@ -1,0 +1,280 @@
+#include "prt/relight/reflect_kernel.h"
+
+#include <algorithm>
+#include <numbers>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "prt/relight/reflect_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <hwy/contrib/math/math-inl.h>
+
+#include "prt/basis/sh.h"
+#include "prt/relight/relight_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace prt::HWY_NAMESPACE {
+namespace {
+
+constexpr std::size_t kBlock = kReflectBlockSize;
+constexpr std::size_t kMostAzimuths = 2 * kMaxBandCount - 1;
+constexpr float kDielectricF0 = 0.04f;
+
+/// Where a block's receivers see the eye.
+struct BlockViews {
+    HWY_ALIGN float positions[kBlock];  ///< among a table's views, 0 to 1
+    HWY_ALIGN float azimuths[kBlock][32];
+};
+
+struct VectorXyz {
+    Vector x, y, z;
+};
+
+HWY_INLINE Vector dotXyz(const VectorXyz& a, const VectorXyz& b) {
+    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+
+/// ω_o in the receivers' frames (frameFromNormal).
+HWY_INLINE VectorXyz localView(const float* places, const Vec3f& eye) {
+    const FloatTag d;
+    const auto load = [&](std::size_t row) HWY_ATTR { return hn::Load(d, places + row * kBlock); };
+    const Vector one = hn::Set(d, 1.0f);
+    VectorXyz toEye = {hn::Sub(hn::Set(d, eye.x), load(0)), hn::Sub(hn::Set(d, eye.y), load(1)),
+                       hn::Sub(hn::Set(d, eye.z), load(2))};
+    const VectorXyz normal = {load(3), load(4), load(5)};
+    const Vector length = hn::Sqrt(dotXyz(toEye, toEye));
+    const Vector scale = hn::IfThenElseZero(hn::Gt(length, hn::Zero(d)), hn::Div(one, length));
+    toEye = {hn::Mul(toEye.x, scale), hn::Mul(toEye.y, scale), hn::Mul(toEye.z, scale)};
+
+    const Vector sign = hn::CopySign(one, normal.z);
+    const Vector a = hn::Neg(hn::Div(one, hn::Add(sign, normal.z)));
+    const Vector xa = hn::Mul(normal.x, a);
+    const Vector b = hn::Mul(xa, normal.y);
+    const VectorXyz tangent = {hn::MulAdd(hn::Mul(sign, normal.x), xa, one), hn::Mul(sign, b),
+                               hn::Neg(hn::Mul(sign, normal.x))};
+    const VectorXyz bitangent = {b, hn::MulAdd(hn::Mul(normal.y, normal.y), a, sign),
+                                 hn::Neg(normal.y)};
+    return {dotXyz(toEye, tangent), dotXyz(toEye, bitangent), dotXyz(toEye, normal)};
+}
+
+/// placeView, and cos mφ and sin mφ.
+void placeViews(const float* places, const Vec3f& eye, int bandCount, BlockViews& views) {
+    const FloatTag d;
+    const Vector one = hn::Set(d, 1.0f);
+    HWY_ALIGN float factors[kMostAzimuths][kBlock];
+    const auto sineRow = static_cast<std::size_t>(bandCount - 1);
+    for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d)) {
+        const VectorXyz view = localView(places + lane, eye);
+        const Vector z = hn::Min(hn::Max(view.z, hn::Zero(d)), one);
+        const Vector rest =
+            hn::Mul(hn::Asin(d, z), hn::Set(d, 2.0f * std::numbers::inv_pi_v<float>));
+        hn::Store(hn::Max(hn::Sub(one, hn::Sqrt(rest)), hn::Zero(d)), d, views.positions + lane);
+
+        const Vector radius = hn::Sqrt(hn::MulAdd(view.x, view.x, hn::Mul(view.y, view.y)));
+        const auto isAside = hn::Gt(radius, hn::Zero(d));
+        const Vector stepCosine = hn::IfThenElse(isAside, hn::Div(view.x, radius), one);
+        const Vector stepSine = hn::IfThenElseZero(isAside, hn::Div(view.y, radius));
+        Vector cosine = one;
+        Vector sine = hn::Zero(d);
+        hn::Store(cosine, d, &factors[0][lane]);
+        for (std::size_t m = 1; m <= sineRow; ++m) {
+            const Vector next = hn::NegMulAdd(sine, stepSine, hn::Mul(cosine, stepCosine));
+            sine = hn::MulAdd(cosine, stepSine, hn::Mul(sine, stepCosine));
+            cosine = next;
+            hn::Store(cosine, d, &factors[m][lane]);
+            hn::Store(sine, d, &factors[sineRow + m][lane]);
+        }
+    }
+    for (std::size_t receiver = 0; receiver < kBlock; ++receiver)
+        for (std::size_t k = 0; k <= 2 * sineRow; ++k)
+            views.azimuths[receiver][k] = factors[k][receiver];
+}
+
+/// Results of a receiver, lane by lane: perBaseColor, constant, and of a split one what arrives of
+/// white light and what would unshadowed.
+using LobeSums = Vector[8];
+
+HWY_INLINE void addTo(Vector& sum, Vector response, const float* incident) {
+    sum = hn::MulAdd(response, hn::LoadU(FloatTag(), incident), sum);
+}
+
+/// A receiver and one view of it.
+struct ViewedLobe {
+    const ReceiverLobe& lobe;
+    const float* azimuths = nullptr;
+    const float* incident = nullptr;
+    std::size_t firstView = 0;  ///< of the table's
+    float viewShare = 0.0f;     ///< of the next
+};
+
+HWY_INLINE Vector lookUpAzimuth(const ReflectView& receivers, const float* azimuths,
+                                std::size_t lane) {
+    const FloatTag d;
+    const auto indices = hn::Load(hn::RebindToSigned<FloatTag>(), receivers.azimuths + lane);
+    if constexpr (hn::MaxLanes(d) == kBlock) {
+        if (2 * receivers.bandCount - 1 <= static_cast<int>(kBlock))
+            return hn::TableLookupLanes(hn::Load(d, azimuths), hn::IndicesFromVec(d, indices));
+    }
+    return hn::GatherIndex(d, azimuths, indices);
+}
+
+template <bool kSplit>
+HWY_INLINE void reflectGltf(const ReflectView& receivers, const ViewedLobe& viewed,
+                            LobeSums& sums) {
+    const FloatTag d;
+    const std::size_t rowSize = receivers.rowSize;
+    const std::size_t levelSize = viewed.lobe.viewCount * 2 * rowSize;
+    const float* const low = viewed.lobe.rows + viewed.firstView * 2 * rowSize;
+    const float* const diffuseRow = receivers.diffuse + viewed.firstView * rowSize;
+    const float level = viewed.lobe.levelShare;
+    const Vector above = hn::Set(d, viewed.viewShare);
+    const Vector below = hn::Set(d, 1.0f - viewed.viewShare);
+    const Vector lowBelow = hn::Set(d, (1.0f - level) * (1.0f - viewed.viewShare));
+    const Vector lowAbove = hn::Set(d, (1.0f - level) * viewed.viewShare);
+    const Vector highBelow = hn::Set(d, level * (1.0f - viewed.viewShare));
+    const Vector highAbove = hn::Set(d, level * viewed.viewShare);
+    const auto blend = [&](const float* row) HWY_ATTR {
+        const Vector atLow = hn::MulAdd(lowAbove, hn::Load(d, row + 2 * rowSize),
+                                        hn::Mul(lowBelow, hn::Load(d, row)));
+        return hn::MulAdd(highAbove, hn::Load(d, row + levelSize + 2 * rowSize),
+                          hn::MulAdd(highBelow, hn::Load(d, row + levelSize), atLow));
+    };
+    const float metallicShare = viewed.lobe.metallic;
+    const Vector metallic = hn::Set(d, metallicShare);
+    const Vector coat = hn::Set(d, kDielectricF0 * (1.0f - metallicShare));
+    const Vector base = hn::Set(d, (1.0f - kDielectricF0) * (1.0f - metallicShare));
+
+    for (std::size_t lane = 0; lane < rowSize; lane += hn::Lanes(d)) {
+        const Vector azimuth = lookUpAzimuth(receivers, viewed.azimuths, lane);
+        const Vector dark = hn::Mul(azimuth, blend(low + lane));
+        const Vector range = hn::Mul(azimuth, blend(low + rowSize + lane));
+        const Vector layered = hn::Mul(hn::Mul(azimuth, base),
+                                       hn::MulAdd(above, hn::Load(d, diffuseRow + rowSize + lane),
+                                                  hn::Mul(below, hn::Load(d, diffuseRow + lane))));
+        const Vector constant = hn::MulAdd(coat, range, dark);
+        const float* const all = viewed.incident + lane;
+        if constexpr (!kSplit) {
+            const Vector perBaseColor = hn::MulAdd(metallic, range, layered);
+            for (std::size_t c = 0; c < 3; ++c) {
+                addTo(sums[c], perBaseColor, all + c * rowSize);
+                addTo(sums[3 + c], constant, all + c * rowSize);
+            }
+        } else {
+            for (std::size_t c = 0; c < 3; ++c) {
+                addTo(sums[c], layered, all + c * rowSize);
+                if (!receivers.hasBounced) continue;
+                addTo(sums[c], hn::Mul(metallic, range), all + (3 + c) * rowSize);
+                addTo(sums[3 + c], constant, all + (3 + c) * rowSize);
+            }
+            const Vector bright = hn::Add(dark, range);
+            addTo(sums[6], bright, viewed.lobe.arriving + lane);
+            addTo(sums[7], bright, receivers.open + lane);
+        }
+    }
+}
+
+HWY_INLINE void reflectOther(const ReflectView& receivers, const ViewedLobe& viewed,
+                             LobeSums& sums) {
+    const FloatTag d;
+    const std::size_t rowSize = receivers.rowSize;
+    const float* const row = viewed.lobe.rows + viewed.firstView * 3 * rowSize;
+    const Vector above = hn::Set(d, viewed.viewShare);
+    const Vector below = hn::Set(d, 1.0f - viewed.viewShare);
+    for (std::size_t lane = 0; lane < rowSize; lane += hn::Lanes(d)) {
+        const Vector azimuth = lookUpAzimuth(receivers, viewed.azimuths, lane);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float* const at = row + c * rowSize + lane;
+            const Vector response =
+                hn::MulAdd(above, hn::Load(d, at + 3 * rowSize), hn::Mul(below, hn::Load(d, at)));
+            addTo(sums[3 + c], hn::Mul(azimuth, response), viewed.incident + c * rowSize + lane);
+        }
+    }
+}
+
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE void sumLanes(const LobeSums& sums, float* totals) {
+    for (std::size_t k = 0; k < 8; ++k)
+        totals[k] = hn::GetLane(sums[k]);
+}
+#else
+/// Adds up four vectors, a 128-bit part at a time: in each part a, b, c, d.
+HWY_INLINE Vector sumParts(Vector a, Vector b, Vector c, Vector e) {
+    const FloatTag d;
+    const hn::Repartition<double, FloatTag> pairs;
+    const Vector ab = hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
+    const Vector ce = hn::Add(hn::InterleaveLower(d, c, e), hn::InterleaveUpper(d, c, e));
+    const auto abPairs = hn::BitCast(pairs, ab);
+    const auto cePairs = hn::BitCast(pairs, ce);
+    return hn::Add(hn::BitCast(d, hn::InterleaveLower(pairs, abPairs, cePairs)),
+                   hn::BitCast(d, hn::InterleaveUpper(pairs, abPairs, cePairs)));
+}
+
+HWY_INLINE void sumLanes(const LobeSums& sums, float* totals) {
+    const FloatTag d;
+    HWY_ALIGN float parts[2][kBlock];
+    hn::Store(sumParts(sums[0], sums[1], sums[2], sums[3]), d, parts[0]);
+    hn::Store(sumParts(sums[4], sums[5], sums[6], sums[7]), d, parts[1]);
+    for (std::size_t half = 0; half < 2; ++half)
+        for (std::size_t k = 0; k < 4; ++k) {
+            float total = parts[half][k];
+            for (std::size_t lane = 4; lane < hn::Lanes(d); lane += 4)
+                total += parts[half][lane + k];
+            totals[4 * half + k] = total;
+        }
+}
+#endif
+
+HWY_INLINE ExitRadiance reflectReceiver(const ReflectView& receivers, const ViewedLobe& viewed) {
+    const Vector zero = hn::Zero(FloatTag());
+    LobeSums sums = {zero, zero, zero, zero, zero, zero, zero, zero};
+    switch (viewed.lobe.kind) {
+        case LobeKind::gltf:
+            reflectGltf<false>(receivers, viewed, sums);
+            break;
+        case LobeKind::split:
+            reflectGltf<true>(receivers, viewed, sums);
+            break;
+        case LobeKind::other:
+            reflectOther(receivers, viewed, sums);
+    }
+    HWY_ALIGN float totals[8];
+    sumLanes(sums, totals);
+    return {{totals[0], totals[1], totals[2]},
+            {totals[3], totals[4], totals[5]},
+            totals[7] > 0.0f ? std::clamp(totals[6] / totals[7], 0.0f, 1.0f) : 0.0f};
+}
+
+void reflect(const ReflectView& receivers, const Vec3f& eye, std::size_t receiverCount,
+             const float* incident, ExitRadiance* radiance) {
+    BlockViews views;
+    for (std::size_t r = 0; r < receiverCount; ++r) {
+        const std::size_t inBlock = r % kBlock;
+        if (inBlock == 0) placeViews(receivers.places + 6 * r, eye, receivers.bandCount, views);
+        const ReceiverLobe& lobe = receivers.lobes[r];
+        const float position = views.positions[inBlock] * static_cast<float>(lobe.viewCount - 1);
+        const auto firstView = std::min(static_cast<std::int32_t>(position),
+                                        static_cast<std::int32_t>(lobe.viewCount) - 2);
+        radiance[r] = reflectReceiver(
+            receivers,
+            {lobe, views.azimuths[inBlock], incident + r * receivers.incidentSize,
+             static_cast<std::size_t>(firstView), position - static_cast<float>(firstView)});
+    }
+}
+
+}  // namespace
+}  // namespace prt::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace prt {
+
+HWY_EXPORT(reflect);
+
+void reflectIncident(const ReflectView& receivers, const Vec3f& eye, std::size_t receiverCount,
+                     const float* incident, ExitRadiance* radiance) {
+    HWY_DYNAMIC_DISPATCH(reflect)(receivers, eye, receiverCount, incident, radiance);
+}
+
+}  // namespace prt
+#endif  // HWY_ONCE

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "prt/math/vector.h"
+#include "prt/relight/exit_radiance.h"
+
+namespace prt {
+
+/// Receivers are seen in blocks of as many.
+inline constexpr std::size_t kReflectBlockSize = 16;
+
+enum class LobeKind : std::uint8_t {
+    gltf,   ///< all light from all incident radiance
+    split,  ///< the specular one from what has bounced
+    other,  ///< of a BRDF of its own
+};
+
+/// What a receiver reflects: rows of coefficients for each view of a table, azimuth 0, every row
+/// written out for m and −m and padded with zeros.
+struct ReceiverLobe {
+    LobeKind kind = LobeKind::gltf;
+    std::uint32_t viewCount = 0;
+    /// Of glTF's: [level][view][2], GGX of F0 = 0 and what F0 = 1 has more, from the level below
+    /// the receiver's roughness on; of others: [view][channel].
+    const float* rows = nullptr;
+    float levelShare = 0.0f;  ///< of the level above
+    float metallic = 0.0f;
+    const float* arriving = nullptr;  ///< of a split one: white light, a padded row
+};
+
+/// Receivers as the kernel sees them.
+struct ReflectView {
+    int bandCount = 0;                       ///< of incident radiance
+    std::size_t rowSize = 0;                 ///< padded
+    const float* places = nullptr;           ///< [block][position, normal][16]
+    const ReceiverLobe* lobes = nullptr;     ///< of each receiver
+    const float* diffuse = nullptr;          ///< [view]: rows of a layered Lambert lobe
+    const float* open = nullptr;             ///< a row: white light as it would arrive unshadowed
+    const std::int32_t* azimuths = nullptr;  ///< a row: azimuthIndex
+    std::size_t incidentSize = 0;            ///< floats a receiver
+    bool hasBounced = false;  ///< behind all incident radiance stands that which has bounced
+};
+
+/// Where the azimuth's factor of coefficient (l, m) stands: cos 0, cos φ, … cos (n−1)φ, and then
+/// sin φ, …
+constexpr std::int32_t azimuthIndex(int bandCount, int m) {
+    return m >= 0 ? m : bandCount - 1 - m;
+}
+
+/// Writes what receivers from the first on, the first of a block, send to the eye.
+///
+/// @param incident  [receiver][channel][padded row], and again of what has bounced
+void reflectIncident(const ReflectView& receivers, const Vec3f& eye, std::size_t receiverCount,
+                     const float* incident, ExitRadiance* radiance);
+
+}  // namespace prt
