@@ -36,7 +36,7 @@ struct PrefilteredEnvironment {
 /// directions, so that small suns leave no specks [Krivanek08]. Roughness 0 is the environment
 /// itself, resampled.
 ///
-/// @param environment  every texel finite and not negative
+/// @param environment  every texel finite; negative radiance counts as any other
 PrefilteredEnvironment prefilterEnvironment(const Environment& environment,
                                             const PrefilterOptions& options = {});
 

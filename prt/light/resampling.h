@@ -12,7 +12,7 @@ namespace prt {
 /// texel gives to all texels together is scaled to its solid angle, so that a sun of one texel
 /// neither gets lost nor grows, and ∫ L dω changes by less than 1e-3. A constant stays constant.
 ///
-/// @param source         every texel finite and not negative
+/// @param source         every texel finite
 /// @param width, height  of the result; they have the shape of its map
 /// @return               0 where the map shows nothing
 Environment resample(const Environment& source, SphereMap map, int width, int height);

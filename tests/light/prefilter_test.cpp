@@ -109,6 +109,25 @@ TEST(Prefilter, AVerySmoothMirrorShowsTheEnvironmentItself) {
     }
 }
 
+/// As light of few bands has it (C5).
+TEST(Prefilter, NegativeRadianceCountsAsAnyOther) {
+    constexpr double kRounding = 2e-5;
+    const Environment source = drawSmooth(kShapes[0], 32);
+    Environment darker = source;
+    for (Vec3f& texel : darker.radiance.pixels)
+        texel -= Vec3f(3.0f);
+    const PrefilterOptions options{
+        .faceSize = 8, .roughnesses = {0.0, 0.2, 0.7}, .sampleCount = 64};
+    const PrefilteredEnvironment light = prefilterEnvironment(source, options);
+    PrefilteredEnvironment dark = prefilterEnvironment(darker, options);
+    for (std::size_t level = 0; level < 3; ++level) {
+        EXPECT_LT(dark.mirrors[level].radiance.at(3, 3).x, 0.0f);
+        for (Vec3f& texel : dark.mirrors[level].radiance.pixels)
+            texel += Vec3f(3.0f);
+        EXPECT_LT(largestDifference(light.mirrors[level], dark.mirrors[level]), kRounding);
+    }
+}
+
 TEST(Prefilter, AveragesOverTheLobe) {
     constexpr double kSampling = 0.025;  // of light between 0.7 and 2.3
     const Environment source = drawSmooth(kShapes[0], 64);
