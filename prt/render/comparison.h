@@ -15,17 +15,22 @@ struct ReferenceOptions {
     int samplesPerRay = 16;  ///< paths for each of the samplesPerAxis² rays of a pixel
     int samplesPerVertex = 256;
     int bounceCount = kUnlimitedBounces;  ///< indirect bounces (C8)
-    std::size_t maxVertexCount = 4096;    ///< of those that are looked at, evenly through the list
+    /// Of all surfaces, and of vertices: the diffuse model makes B of them, the glTF model what
+    /// they send to the camera's eye.
+    SurfaceModel surfaceModel = SurfaceModel::diffuse;
+    std::span<const Brdf> materialBrdfs{};  ///< as WalkOptions has them
+    std::size_t maxVertexCount = 4096;  ///< of those that are looked at, evenly through the list
 };
 
 /// The truth about a view of a scene under a light, and about some of its vertices.
 struct Reference {
     PathTracedView view;
     std::vector<std::size_t> vertices;  ///< scene-wide numbers
-    RadianceEstimate atVertices;        ///< B before albedo, one a vertex
+    RadianceEstimate atVertices;        ///< B before albedo, or exit radiance; one a vertex
 };
 
-/// Path-traces a reference. @throws Error invalidOption, cancelled
+/// Path-traces a reference. Of the glTF model are looked at only vertices whose normals face the
+/// eye. @throws Error invalidOption, cancelled
 Reference traceReference(const Scene& scene, const RayScene& rays, const DistantLight& light,
                          const Camera& camera, const ReferenceOptions& options);
 
@@ -60,9 +65,25 @@ struct PictureComparison {
 PictureComparison comparePictures(const Image& picture, const PathTracedView& reference,
                                   const DisplayOptions& display);
 
-/// Relit B held against a reference at its vertices, where nothing is interpolated.
+/// The error over the pixels that show one material and nothing else.
+struct MaterialError {
+    std::size_t material = 0;  ///< index into Scene::materials
+    std::size_t pixelCount = 0;
+    NoisyError error;
+};
+
+/// A picture held against a reference material by material; materials that fill no pixel are left
+/// out.
 ///
-/// @param vertexRadiance  of all vertices of the scene
+/// @param view  of both
+std::vector<MaterialError> compareMaterials(const Scene& scene, const RayScene& rays,
+                                            const Camera& camera, const RenderOptions& view,
+                                            const Image& picture, const PathTracedView& reference);
+
+/// Relit radiance held against a reference at its vertices, where nothing is interpolated.
+///
+/// @param vertexRadiance  of all vertices of the scene: B, or what shadeVertices makes of exit
+///                        radiance, as the reference has it
 NoisyError compareAtVertices(std::span<const Vec3f> vertexRadiance, const Reference& reference);
 
 }  // namespace prt

@@ -3,73 +3,57 @@
 #include <vector>
 
 #include "prt/base/assert.h"
-#include "prt/parallel/parallel_for.h"
-#include "prt/render/camera_rays.h"
+#include "prt/render/draw_view.h"
+#include "prt/render/exit_shading.h"
+#include "prt/render/path_walk.h"
 #include "prt/scene/surface_color.h"
 
 namespace prt {
 namespace {
 
-/// Pixels a task.
-constexpr std::size_t kChunkPixels = 64;
-
-class ViewRenderer {
+/// What is given for every vertex of a scene, mesh by mesh.
+template <class Value>
+class VertexValues {
   public:
-    ViewRenderer(const Scene& scene, const RayScene& rayScene,
-                 std::span<const Vec3f> vertexRadiance, const Camera& camera,
-                 const RenderOptions& options)
-        : scene_(scene),
-          cameraRays_(scene, rayScene, camera, options),
-          vertexRadiance_(vertexRadiance),
-          vertexOffsets_(vertexOffsets(scene)),
-          options_(options) {
-        PRT_ASSERT(vertexRadiance.size() == scene.vertexCount(), "one radiance a vertex");
+    VertexValues(const Scene& scene, std::span<const Value> values)
+        : values_(values), offsets_(vertexOffsets(scene)) {
+        PRT_ASSERT(values.size() == scene.vertexCount(), "one radiance a vertex");
     }
 
-    /// @param firstPixel  row-major number of the first of the pixels to write
-    void renderPixels(std::size_t firstPixel, std::span<Vec3f> pixels) const {
-        const std::vector<SeenPoint> seen = cameraRays_.findSeenPoints(firstPixel, pixels.size());
-        const std::size_t rayCount = cameraRays_.raysPerPixel();
-        for (std::size_t pixel = 0; pixel < pixels.size(); ++pixel) {
-            Vec3d sum(0.0);
-            for (std::size_t i = pixel * rayCount; i < (pixel + 1) * rayCount; ++i)
-                sum += Vec3d(seenRadiance(seen[i]));
-            pixels[pixel] = Vec3f(sum / static_cast<double>(rayCount));
-        }
+    std::span<const Value> ofMesh(std::size_t mesh) const {
+        return values_.subspan(offsets_[mesh], offsets_[mesh + 1] - offsets_[mesh]);
     }
 
   private:
-    Vec3f seenRadiance(const SeenPoint& seen) const {
-        if (seen.hit.escaped) return lookUpBackground(options_, seen.direction);
-        const SurfacePoint& point = seen.hit.point;
-        const Mesh& mesh = scene_.meshes[point.mesh];
-        const auto meshRadiance =
-            vertexRadiance_.subspan(vertexOffsets_[point.mesh], mesh.vertexCount());
-        return evaluateAlbedo(scene_, point) * interpolateCorners(mesh, point, meshRadiance) +
-               evaluateEmission(scene_, point);
-    }
-
-    const Scene& scene_;
-    CameraRays cameraRays_;
-    std::span<const Vec3f> vertexRadiance_;
-    std::vector<std::size_t> vertexOffsets_;
-    const RenderOptions& options_;
+    std::span<const Value> values_;
+    std::vector<std::size_t> offsets_;
 };
 
 }  // namespace
 
 Image renderView(const Scene& scene, const RayScene& rays, std::span<const Vec3f> vertexRadiance,
                  const Camera& camera, const RenderOptions& options) {
-    const ViewRenderer renderer(scene, rays, vertexRadiance, camera, options);
-    Image image(options.width, options.height);
-    ProgressReporter progress(options.progress, "render", "pixels", image.pixels.size());
-    parallelFor(image.pixels.size(), {options.threadCount, kChunkPixels},
-                [&](std::size_t begin, std::size_t end) {
-                    renderer.renderPixels(begin,
-                                          std::span(image.pixels).subspan(begin, end - begin));
-                    progress.advance(end - begin);
-                });
-    return image;
+    const VertexValues<Vec3f> radiance(scene, vertexRadiance);
+    return drawView(scene, rays, camera, options, [&](const SeenPoint& seen) {
+        const SurfacePoint& point = seen.hit.point;
+        return evaluateAlbedo(scene, point) * interpolateCorners(scene.meshes[point.mesh], point,
+                                                                 radiance.ofMesh(point.mesh)) +
+               evaluateEmission(scene, point);
+    });
+}
+
+Image renderView(const Scene& scene, const RayScene& rays,
+                 std::span<const ExitRadiance> vertexRadiance, const Camera& camera,
+                 const RenderOptions& options) {
+    const VertexValues<ExitRadiance> radiance(scene, vertexRadiance);
+    return drawView(scene, rays, camera, options, [&](const SeenPoint& seen) {
+        const SurfacePoint& point = seen.hit.point;
+        const ExitRadiance exit =
+            interpolateExit(scene.meshes[point.mesh], point, radiance.ofMesh(point.mesh));
+        const Vec3f normal = placePathOrigin(scene, rays, seen.hit).normal;
+        return shadePoint(scene, point, exit, normal, -seen.direction, options.mirrors) +
+               evaluateEmission(scene, point);
+    });
 }
 
 }  // namespace prt

@@ -8,6 +8,7 @@
 
 #include "prt/base/random.h"
 #include "prt/light/analytic_lights.h"
+#include "prt/render/exit_shading.h"
 #include "prt/scene/framing.h"
 #include "prt/scene/procedural.h"
 #include "tests/support/scenes.h"
@@ -136,6 +137,96 @@ TEST(Comparison, AReferenceOfAnOpenFloorIsItsClosedForm) {
     const NoisyError noticed = compareAtVertices(wrong, reference);
     EXPECT_TRUE(noticed.isSignificant());
     EXPECT_NEAR(noticed.relative(noticed.rmseWithoutNoise()), 0.1, 0.01);
+}
+
+/// Of an open surface under white light leaves the share that it reflects.
+TEST(Comparison, AReferenceOfAGlossyFloorIsItsDirectionalAlbedo) {
+    Scene scene = test::assembleScene({{makeFloor(1.0f, 0.0f, 40), Vec3f(0.9f, 0.5f, 0.2f)}});
+    scene.materials[0].metallicFactor = 1.0f;
+    scene.materials[0].roughnessFactor = 0.4f;
+    const RayScene rays(scene);
+    const Camera camera = lookAt({0.0f, 1.0f, 1.5f}, Vec3f(0.0f), 0.7f);
+    ReferenceOptions options;
+    options.view.width = 32;
+    options.view.height = 18;
+    options.samplesPerRay = 32;
+    options.samplesPerVertex = 2048;
+    options.maxVertexCount = 100;
+    options.surfaceModel = SurfaceModel::gltf;
+    const auto light = makeBandLimitedLight(uniformLighting(Vec3d(1.0), 1));
+    const Reference reference = traceReference(scene, rays, *light, camera, options);
+
+    const MirrorEnvironment white = makeMirrorEnvironment(
+        {SphereMap::latLong, Image(16, 8, Vec3f(1.0f))}, {}, {.faceSize = 8, .sampleCount = 16});
+    const std::vector<ExitRadiance> mirrored(scene.vertexCount(), {Vec3f(0.0f), Vec3f(0.0f), 1.0f});
+    std::vector<Vec3f> expected = shadeVertices(scene, mirrored, camera.eye, &white);
+    const NoisyError atVertices = compareAtVertices(expected, reference);
+    EXPECT_LT(atVertices.relative(atVertices.largestRmseWithoutNoise()), 0.01);
+    options.view.mirrors = &white;
+    const Image relit = renderView(scene, rays, mirrored, camera, options.view);
+    const NoisyError inPicture = comparePictures(relit, reference.view, {}).error;
+    EXPECT_LT(inPicture.relative(inPicture.largestRmseWithoutNoise()), 0.01);
+
+    for (Vec3f& radiance : expected)
+        radiance *= 1.1f;
+    EXPECT_NEAR(compareAtVertices(expected, reference).error.relativeRmse, 0.1, 0.03);
+
+    // Given BRDFs take the place of materials.
+    const std::vector<Brdf> lambert = {{.lobes = {LambertLobe{Vec3d(0.5)}}}};
+    options.materialBrdfs = lambert;
+    const Reference matt = traceReference(scene, rays, *light, camera, options);
+    const NoisyError ofHalf =
+        compareAtVertices(std::vector<Vec3f>(scene.vertexCount(), Vec3f(0.5f)), matt);
+    EXPECT_LT(ofHalf.relative(ofHalf.largestRmseWithoutNoise()), 0.01);
+}
+
+TEST(Comparison, GlossyReferencesLookAtVerticesThatFaceTheEye) {
+    Scene scene = test::assembleScene({{makeSphere(Vec3f(0.0f), 1.0f, 24)}});
+    Mesh& mesh = scene.meshes[0];
+    mesh.positions.push_back(Vec3f(0.0f, 0.0f, 1.0f));  // of no triangle
+    mesh.normals.push_back(Vec3f(0.0f, 0.0f, 1.0f));
+    ReferenceOptions options;
+    options.view.width = options.view.height = 1;
+    options.samplesPerRay = options.samplesPerVertex = 2;
+    options.surfaceModel = SurfaceModel::gltf;
+    const Vec3f eye(0.0f, 0.0f, 4.0f);
+    const Reference reference = traceReference(
+        scene, RayScene(scene), *makeBandLimitedLight(uniformLighting(Vec3d(1.0), 1)),
+        lookAt(eye, Vec3f(0.0f), 0.7f), options);
+    std::vector<std::size_t> facing;
+    for (std::size_t i = 0; i + 1 < mesh.vertexCount(); ++i)
+        if (mesh.normals[i].dot(eye - mesh.positions[i]) > 0.0f) facing.push_back(i);
+    EXPECT_GT(facing.size(), mesh.vertexCount() / 4);
+    EXPECT_EQ(reference.vertices, facing);
+    EXPECT_EQ(reference.atVertices.mean.size(), facing.size());
+}
+
+TEST(Comparison, EachMaterialHasItsOwnError) {
+    const Scene scene = test::assembleScene(
+        {{test::makeQuad({-3, -1, -1}, {0, -1, -1}, {0, 1, -1}, {-3, 1, -1})},
+         {test::makeQuad({0, -1, -1}, {1.5f, -1, -1}, {1.5f, 1, -1}, {0, 1, -1})},
+         {test::makeQuad({0, -9, 1}, {1, -9, 1}, {1, -8, 1}, {0, -8, 1})}});  // not seen
+    Camera camera;
+    camera.verticalFovRadians = std::numbers::pi_v<float> / 2.0f;
+    const RenderOptions view{.width = 6, .height = 2};
+    // The left wall fills columns 0 to 2, the right one 3 and half of 4.
+    const PathTracedView reference{Image(6, 2, Vec3f(1.0f)), Image(6, 2, Vec3f(0.01f))};
+    Image picture = reference.radiance;
+    for (int y = 0; y < 2; ++y) {
+        picture.at(0, y) = Vec3f(1.5f);
+        picture.at(3, y) = Vec3f(1.25f);
+        picture.at(4, y) = picture.at(5, y) = Vec3f(9.0f);  // seen together with nothing
+    }
+    const std::vector<MaterialError> errors =
+        compareMaterials(scene, RayScene(scene), camera, view, picture, reference);
+    ASSERT_EQ(errors.size(), 2u);
+    EXPECT_EQ(errors[0].material, 0u);
+    EXPECT_EQ(errors[0].pixelCount, 6u);
+    EXPECT_NEAR(errors[0].error.error.rmse, 0.5 / std::sqrt(3.0), 1e-6);
+    EXPECT_EQ(errors[1].material, 1u);
+    EXPECT_EQ(errors[1].pixelCount, 2u);
+    EXPECT_NEAR(errors[1].error.error.rmse, 0.25, 1e-6);
+    EXPECT_NEAR(errors[1].error.noiseRmse, 0.1, 1e-6);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "prt/base/error.h"
+#include "prt/base/random.h"
 #include "prt/scene/framing.h"
 #include "prt/scene/procedural.h"
 #include "tests/support/scenes.h"
@@ -222,6 +223,63 @@ TEST(RenderView, RadianceIsInterpolatedInTheTriangleWithPerspective) {
         for (const int x : {0, 13, 31})
             EXPECT_NEAR(image.at(x, y).x, expected, kTolerance * expected) << x << " " << y;
     }
+}
+
+/// Any numbers for the vertices of two walls.
+std::vector<ExitRadiance> drawExitRadiance(const Scene& scene) {
+    RandomStream random(5, 0);
+    const auto draw = [&] {
+        return Vec3f(random.nextUnitFloat(), random.nextUnitFloat(), random.nextUnitFloat());
+    };
+    std::vector<ExitRadiance> exit(scene.vertexCount());
+    for (ExitRadiance& radiance : exit) {
+        radiance.perBaseColor = draw() - Vec3f(0.25f);
+        radiance.constant = draw();
+    }
+    return exit;
+}
+
+TEST(RenderView, ExitRadianceIsBaseColourTimesOnePartAndTheOtherAndEmission) {
+    constexpr float kRounding = 1e-6f;
+    Scene scene = assembleScene({{makeWall(-1, -2, 0, -1, 1), Vec3f(0.5f, 0.25f, 1.0f)},
+                                 {makeWall(-1, 0, 2, -1, 1), Vec3f(0.125f)}});
+    scene.materials[1].emissiveFactor = {4.0f, 2.0f, 0.0f};
+    attachHalfWhiteTexture(scene, &Material::baseColorTexture);
+    Scene white = scene;
+    for (Material& material : white.materials) {
+        material = {};
+        material.baseColorFactor = Vec4f(1.0f);
+    }
+    const std::vector<ExitRadiance> exit = drawExitRadiance(scene);
+    std::vector<Vec3f> perBaseColor, constant;
+    for (const ExitRadiance& radiance : exit) {
+        perBaseColor.push_back(radiance.perBaseColor);
+        constant.push_back(radiance.constant);
+    }
+    const Camera camera = makeSquareCamera();
+    const RenderOptions options = makeOptions(32, 16);
+    const RayScene rays(scene), whiteRays(white);
+    const Image shown = renderView(scene, rays, exit, camera, options);
+    const Image diffuse = renderView(scene, rays, perBaseColor, camera, options);
+    const Image added = renderView(white, whiteRays, constant, camera, options);
+    for (std::size_t i = 0; i < shown.pixels.size(); ++i)
+        ASSERT_TRUE(shown.pixels[i].equalWithAbsError(diffuse.pixels[i] + added.pixels[i],
+                                                      8.0f * kRounding))
+            << i;
+}
+
+TEST(RenderView, ExitRadianceOfADiffuseSurfaceShowsTheDiffusePictureExactly) {
+    const Scene scene = assembleScene(
+        {{makeWall(-1, -2, 0, -1, 1), Vec3f(0.3f)}, {makeWall(-1, 0, 2, -1, 1), kWhite}});
+    std::vector<ExitRadiance> exit = drawExitRadiance(scene);
+    std::vector<Vec3f> radiance;
+    for (ExitRadiance& vertex : exit) {
+        vertex.constant = kBlack;
+        radiance.push_back(vertex.perBaseColor);
+    }
+    const RayScene rays(scene);
+    EXPECT_EQ(renderView(scene, rays, exit, makeSquareCamera(), makeOptions(16, 8)).pixels,
+              renderView(scene, rays, radiance, makeSquareCamera(), makeOptions(16, 8)).pixels);
 }
 
 TEST(RenderView, VerticesAreNumberedMeshAfterMesh) {
