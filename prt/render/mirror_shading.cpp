@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <utility>
 
 #include "prt/base/assert.h"
@@ -31,15 +30,6 @@ Vec3f lookUpMirror(const MirrorEnvironment& environment, const Vec3f& direction,
     const Vec3f smooth = lookUpRadiance(environment.mirrors[index - 1], direction);
     if (share <= 0.0f) return smooth;
     return smooth * (1.0f - share) + lookUpRadiance(environment.mirrors[index], direction) * share;
-}
-
-/// ∫ f_r cos θ_i dω_i of the specular lobe: that of a metal whose base colour is F0.
-Vec3f specularAlbedo(const GltfViewTable& table, const Vec3f& f0, float roughness,
-                     const Vec3f& view) {
-    constexpr float kPerY0 = 3.5449077018110321f;  // 1/y_00 = sqrt(4 pi)
-    std::array<float, 3> response{};
-    table.addResponse(f0, {.metallic = 1.0f, .roughness = roughness}, view, response);
-    return Vec3f(response[0], response[1], response[2]) * kPerY0;
 }
 
 }  // namespace
@@ -77,7 +67,7 @@ Vec3f showMirrored(const MirrorEnvironment& environment, const Vec3f& normal, co
     return lookUpMirror(environment,
                         Vec3f(environment.worldFromEnvironment.transposed() * mirrored),
                         static_cast<double>(surface.roughness)) *
-           specularAlbedo(environment.albedos, f0, surface.roughness, Vec3f(towardsEye));
+           environment.albedos.evaluate(f0, surface.roughness, static_cast<float>(towardsEye.z));
 }
 
 }  // namespace prt

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "prt/brdf/gltf_view_table.h"
+#include "prt/brdf/specular_albedo.h"
 #include "prt/light/prefilter.h"
 #include "prt/math/transform.h"
 #include "prt/scene/surface_color.h"
@@ -14,9 +14,7 @@ struct MirrorEnvironment {
     std::vector<double> roughnesses;   ///< ascending from 0, at least two
     std::vector<Environment> mirrors;  ///< one a roughness (PrefilteredEnvironment)
     Mat3d worldFromEnvironment{};      ///< a rotation: L(R⁻¹ω)
-    /// Of light from everywhere, for which one band is enough, and few nodes.
-    GltfViewTable albedos{
-        {.bandCount = 1, .quadrature = {.polarNodeCount = 32, .azimuthNodeCount = 12}}};
+    SpecularAlbedoTable albedos{};
 };
 
 struct MirrorOptions {
