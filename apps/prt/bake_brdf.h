@@ -10,8 +10,8 @@ namespace prt::cli {
 
 /// How surfaces reflect with --brdf, as a checkpoint knows it again.
 struct BakeReflection {
-    Reflection reflection{};  ///< empty: as the scene says
-    std::string setting{};    ///< the options, and a fingerprint of what they mean
+    SurfaceReflection reflection{};  ///< empty: as the scene says
+    std::string setting{};           ///< the options, and a fingerprint of what they mean
 };
 
 /// @param scene    must outlive it

@@ -46,7 +46,7 @@ std::unique_ptr<Checkpoint> openCheckpoint(const Scene& scene, const BakeOptions
 }
 
 /// How surfaces reflect, where that is asked.
-Reflection chooseReflection(const Scene& scene, const BakeOptions& options) {
+SurfaceReflection chooseReflection(const Scene& scene, const BakeOptions& options) {
     if (options.transport != Transport::glossy || options.reflection || options.bounceCount == 0)
         return options.reflection;
     return gltfReflection(scene, std::make_shared<GltfViewTable>(
@@ -70,7 +70,7 @@ struct ReadyBake {
     Receivers receivers;
     GatherScene scene;
     GatherPass gather;
-    Reflection reflection;
+    SurfaceReflection reflection;
 };
 
 BakePlan announcePlan(const ReadyBake& ready, const BakeOptions& options,

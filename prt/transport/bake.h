@@ -51,7 +51,7 @@ struct BakeOptions {
     int sampleCount = 1024;     ///< rays a receiver, 16 … 65536
     int bounceCount = 2;        ///< indirect bounces (C8), or kInfiniteBounces
     /// Of the surfaces, where light bounces into matrices; empty: gltfReflection.
-    Reflection reflection{};
+    SurfaceReflection reflection{};
     std::uint64_t seed = 1;
     int threadCount = 0;  ///< 0: one a core
     /// What the process may have in all; hits and transfer beyond it go to disk, without changing

@@ -18,7 +18,7 @@ struct MatrixGatherScene {
     const GatherKernels& kernels;
     const SamplePattern& pattern;
     const VisibilityMatrix& visibilityMatrix;
-    const Reflection& reflection;
+    const SurfaceReflection& reflection;
     std::uint64_t seed = 1;
 };
 

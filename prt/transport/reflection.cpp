@@ -10,7 +10,7 @@
 
 namespace prt {
 
-Reflection lambertReflection(const Scene& scene) {
+SurfaceReflection lambertReflection(const Scene& scene) {
     return [&scene](const SurfacePoint& point, const Vec3f&, std::span<float> response) {
         const std::size_t coefficientCount = response.size() / 3;
         PRT_ASSERT(coefficientCount >= 4, "the cosine has two bands");
@@ -21,7 +21,7 @@ Reflection lambertReflection(const Scene& scene) {
     };
 }
 
-Reflection gltfReflection(const Scene& scene, std::shared_ptr<const GltfViewTable> table) {
+SurfaceReflection gltfReflection(const Scene& scene, std::shared_ptr<const GltfViewTable> table) {
     return [&scene, table = std::move(table)](const SurfacePoint& point, const Vec3f& view,
                                               std::span<float> response) {
         table->addResponse(evaluateAlbedo(scene, point), evaluateMetallicRoughness(scene, point),
@@ -29,9 +29,9 @@ Reflection gltfReflection(const Scene& scene, std::shared_ptr<const GltfViewTabl
     };
 }
 
-Reflection brdfReflection(const Scene& scene,
-                          std::vector<std::shared_ptr<const BrdfViewTable>> tables,
-                          std::shared_ptr<const GltfViewTable> gltf) {
+SurfaceReflection brdfReflection(const Scene& scene,
+                                 std::vector<std::shared_ptr<const BrdfViewTable>> tables,
+                                 std::shared_ptr<const GltfViewTable> gltf) {
     PRT_ASSERT(tables.size() == scene.materials.size(), "there is a table a material, or null");
     PRT_ASSERT(gltf || std::find(tables.begin(), tables.end(), nullptr) == tables.end(),
                "materials that stay have a table too");

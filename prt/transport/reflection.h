@@ -24,29 +24,29 @@ namespace prt {
 /// @param point     whose material it is
 /// @param view      ω_o, unit, local frame; a little below the horizon where shading normals lean
 /// @param response  [channel][i], zeros: f_i is added
-using Reflection =
+using SurfaceReflection =
     std::function<void(const SurfacePoint& point, const Vec3f& view, std::span<float> response)>;
 
 /// Albedo/π of the base colour. Above the horizon the cosine is one coefficient, cos θ =
 /// √(4π/3) y_10, so that two bands of incident radiance hold a Lambert surface exactly.
 ///
 /// @param scene  must outlive it; textures decoded
-Reflection lambertReflection(const Scene& scene);
+SurfaceReflection lambertReflection(const Scene& scene);
 
 /// Diffuse and specular light of glTF materials with their textures.
 ///
 /// @param scene  must outlive it; textures decoded
 /// @param table  for the bands of the incident radiance
-Reflection gltfReflection(const Scene& scene, std::shared_ptr<const GltfViewTable> table);
+SurfaceReflection gltfReflection(const Scene& scene, std::shared_ptr<const GltfViewTable> table);
 
 /// Surfaces of other BRDFs than their glTF materials say.
 ///
 /// @param scene   must outlive it; textures decoded where a material stays as it is
 /// @param tables  one a material of the scene; null: the material stays as it is
 /// @param gltf    for those that stay; of as many bands
-Reflection brdfReflection(const Scene& scene,
-                          std::vector<std::shared_ptr<const BrdfViewTable>> tables,
-                          std::shared_ptr<const GltfViewTable> gltf = nullptr);
+SurfaceReflection brdfReflection(const Scene& scene,
+                                 std::vector<std::shared_ptr<const BrdfViewTable>> tables,
+                                 std::shared_ptr<const GltfViewTable> gltf = nullptr);
 
 /// f_10 of albedo 1: row (1, 0) of a transfer matrix times this is the diffuse transfer vector
 /// (C6).

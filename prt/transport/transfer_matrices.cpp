@@ -48,7 +48,7 @@ TransferMatrices bakeTransferMatrices(const Scene& scene, const TransferMatrixOp
     const GatherKernels kernels = selectGatherKernels(options.isa.value_or(detectIsa()));
     const SamplePattern pattern(padToLanes(static_cast<std::size_t>(options.sampleCount)));
     const VisibilityMatrix visibilityMatrix(options.incidentBandCount, options.bandCount);
-    const Reflection reflection =
+    const SurfaceReflection reflection =
         options.reflection ? options.reflection : lambertReflection(scene);
     const GatherScene gatherScene{scene, rays, receivers};
     const MatrixGatherScene shared{gatherScene,      kernels,    pattern,

@@ -34,9 +34,10 @@ struct TransferMatrices {
 struct TransferMatrixOptions {
     int incidentBandCount = 5;  ///< n_in and n: at least 1, and n_in + n − 1 ≤ kMaxBandCount
     int bandCount = 5;
-    int sampleCount = 1024;   ///< rays a receiver, 16 … 65536
-    int bounceCount = 0;      ///< diffuse and glossy ones, or kInfiniteBounces
-    Reflection reflection{};  ///< of the surfaces; empty: lambertReflection, for which n_in ≥ 2
+    int sampleCount = 1024;  ///< rays a receiver, 16 … 65536
+    int bounceCount = 0;     ///< diffuse and glossy ones, or kInfiniteBounces
+    SurfaceReflection
+        reflection{};  ///< of the surfaces; empty: lambertReflection, for which n_in ≥ 2
     std::uint64_t seed = 1;
     int threadCount = 0;       ///< 0: one a core
     std::optional<Isa> isa{};  ///< pins the instruction set (C10); default: the widest

@@ -85,7 +85,7 @@ struct Estimate {
     }
 };
 
-Estimate bakeManyTimes(const Scene& scene, const Reflection& reflection, int bounceCount) {
+Estimate bakeManyTimes(const Scene& scene, const SurfaceReflection& reflection, int bounceCount) {
     const auto light = makeLight();
     const auto lobe = makeLobe();
     Estimate estimate(0);
@@ -118,7 +118,7 @@ Estimate bakeManyTimes(const Scene& scene, const Reflection& reflection, int bou
 /// Walks from receiver to receiver in directions uniform over their hemispheres.
 class BandLimitedWalks {
   public:
-    BandLimitedWalks(const Scene& scene, const Reflection& reflection, int bounceCount)
+    BandLimitedWalks(const Scene& scene, const SurfaceReflection& reflection, int bounceCount)
         : scene_(scene),
           rays_(scene),
           receivers_(placeReceivers(scene, rays_)),
@@ -215,7 +215,7 @@ class BandLimitedWalks {
     RayScene rays_;
     Receivers receivers_;
     std::vector<std::size_t> offsets_;
-    const Reflection& reflection_;
+    const SurfaceReflection& reflection_;
     int bounceCount_;
 };
 
@@ -227,7 +227,7 @@ TEST_P(GlossyBakerAgainstPaths, EveryReceiverReflectsTheSame) {
         GltfViewTableOptions{.bandCount = kIncidentBandCount,
                              .levelCount = 11,
                              .quadrature = {.polarNodeCount = 32, .azimuthNodeCount = 16}});
-    const Reflection reflection = gltfReflection(scene, table);
+    const SurfaceReflection reflection = gltfReflection(scene, table);
     const Estimate baked = bakeManyTimes(scene, reflection, GetParam());
     const Estimate walked = BandLimitedWalks(scene, reflection, GetParam()).walk();
     ASSERT_EQ(baked.mean.size(), walked.mean.size());

@@ -67,8 +67,8 @@ TEST(BrdfReflection, LeavesMaterialsWithoutATableAsTheyAre) {
         .bandCount = 3, .levelCount = 3, .viewCount = 16, .quadrature = kCoarse});
     Tables tables(scene.materials.size());
     tables[2] = makeTable(PhongLobe{.albedo = Vec3d(0.2, 0.5, 0.8), .exponent = 9.0}, 3);
-    const Reflection mixed = brdfReflection(scene, tables, gltf);
-    const Reflection unchanged = gltfReflection(scene, gltf);
+    const SurfaceReflection mixed = brdfReflection(scene, tables, gltf);
+    const SurfaceReflection unchanged = gltfReflection(scene, gltf);
     const Vec3f view(0.48f, -0.6f, 0.64f);
     std::vector<float> ofTable(27);
     tables[2]->addResponse(view, ofTable);
@@ -87,7 +87,7 @@ struct Range {
     double least = 10.0;
     double largest = 0.0;
 };
-Range measureBowl(const Scene& scene, const Reflection& reflection, int bounceCount,
+Range measureBowl(const Scene& scene, const SurfaceReflection& reflection, int bounceCount,
                   int sampleCount) {
     TransferMatrixOptions options{
         .bandCount = 1, .sampleCount = sampleCount, .bounceCount = bounceCount};
@@ -109,7 +109,7 @@ TEST(BrdfReflection, InABowlHasItsClosedForm) {  // A9
     // Of a thousand rays over the edge of the sky, and of what five bands miss near the horizon.
     constexpr double kTolerance = 2e-2;
     const Scene scene = test::assembleScene({{makeBowl(0.4f, 24)}});
-    const Reflection reflection =
+    const SurfaceReflection reflection =
         brdfReflection(scene, {makeTable(LambertLobe{.albedo = Vec3d(kAlbedo)})});
     double transfer = kSky;
     for (int bounceCount = 1; bounceCount <= 3; ++bounceCount) {
@@ -127,7 +127,7 @@ TEST(BrdfReflection, OfWhiteLobesAddsNoLight) {
     for (const BrdfLobe& lobe : {BrdfLobe(LambertLobe{.albedo = Vec3d(1.0)}),
                                  BrdfLobe(PhongLobe{.albedo = Vec3d(1.0), .exponent = 8.0}),
                                  BrdfLobe(GgxLobe{.f0 = Vec3d(1.0), .alpha = 0.3})}) {
-        const Reflection reflection = brdfReflection(scene, {makeTable(lobe)});
+        const SurfaceReflection reflection = brdfReflection(scene, {makeTable(lobe)});
         double last = 0.3;  // its share of the sky
         for (int bounceCount = 1; bounceCount <= 8; bounceCount *= 2) {
             const double largest = measureBowl(scene, reflection, bounceCount, 256).largest;

@@ -159,7 +159,7 @@ TEST_F(GlossyBake, IsTheSameForAnyNumberOfColumnsAtOnce) {  // C10
     const GatherKernels kernels = selectGatherKernels(detectIsa());
     const SamplePattern pattern(64);
     const VisibilityMatrix visibilityMatrix(3, 4);
-    const Reflection reflection = reflectGlossily;
+    const SurfaceReflection reflection = reflectGlossily;
     const GatherScene gatherScene{scene, rays, receivers};
     const MatrixGatherScene shared{gatherScene,      kernels,    pattern,
                                    visibilityMatrix, reflection, options.seed};

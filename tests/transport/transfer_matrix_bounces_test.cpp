@@ -216,7 +216,7 @@ TEST(TransferMatrixBounces, FollowGltfMaterials) {
     scene.materials[1].roughnessFactor = 0.4f;
     scene.materials[2].metallicFactor = 0.0f;
     scene.materials[2].roughnessFactor = 0.7f;
-    const Reflection reflection =
+    const SurfaceReflection reflection =
         gltfReflection(scene, std::make_shared<GltfViewTable>(kMaterialTable));
     const double angle = 0.5 * std::numbers::pi * (1.0 - 0.4 * 0.4);  // three steps of five
     const Vec3d view(0.6 * std::sin(angle), -0.8 * std::sin(angle), std::cos(angle));
