@@ -122,8 +122,7 @@ void addBrdfOption(CLI::App& command, std::vector<BrdfArgument>& arguments) {
     };
     command
         .add_option_function<std::vector<std::string>>(
-            "--brdf", read,
-            "what all materials, or one, are made of instead (prt brdf --help); may be given again")
+            "--brdf", read, "what all materials, or one, are made of instead; see prt brdf --help")
         ->type_name("[MATERIAL=]SPEC")
         ->allow_extra_args(false);
 }

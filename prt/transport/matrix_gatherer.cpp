@@ -102,6 +102,7 @@ void MatrixGatherer::addReflected(std::uint32_t receiver, const MatrixSources& s
     radiance_.resize(kChannelCount * stride);
     reflected_.assign(kChannelCount * channelSize, 0.0f);
     for (std::size_t h = 0; h < hits_.size(); ++h) {
+        if (h + 1 < hits_.size()) prefetchSources(hits_[h + 1], sources);
         if (!reflects(hits_[h])) continue;
         const std::uint32_t ray = blockedRays_[h];
         const Vec3f direction(rays_.directionX[ray], rays_.directionY[ray], rays_.directionZ[ray]);
@@ -117,6 +118,19 @@ void MatrixGatherer::addReflected(std::uint32_t receiver, const MatrixSources& s
     for (std::size_t row = 0; row < kChannelCount * rowCount_; ++row)
         for (std::size_t j = 0; j < columnCount; ++j)
             matrix[row * columnCount + j] += weight * reflected_[row * stride + j];
+}
+
+/// Has the memory under way while the hit before is at work: it is what a bounce waits for.
+void MatrixGatherer::prefetchSources(const Hit& hit, const MatrixSources& sources) const {
+    constexpr std::size_t kCacheLine = 64 / sizeof(float);
+    if (!reflects(hit)) return;
+    const std::size_t length = kChannelCount * rowCount_ * sources.columns.count();
+    for (const std::uint32_t front : frontsAt(hit)) {
+        const std::uint32_t row = hit.backFace ? sources.rowOfBack[front] : front;
+        if (row == kNoRow) continue;
+        for (std::size_t i = 0; i < length; i += kCacheLine)
+            __builtin_prefetch(sources.values + row * length + i, 0, 2);  // into L2
+    }
 }
 
 /// Writes what a surface sends back along a ray, interpolated between its corners, each of which

@@ -76,6 +76,7 @@ class MatrixGatherer {
     void findHits();
     bool reflects(const Hit& hit) const;
     const std::array<std::uint32_t, 3>& frontsAt(const Hit& hit) const;
+    void prefetchSources(const Hit& hit, const MatrixSources& sources) const;
     void findRadiance(const Hit& hit, const Vec3f& direction, const MatrixSources& sources,
                       std::size_t stride);
 

@@ -9,6 +9,10 @@
 namespace prt {
 namespace {
 
+std::size_t divideUp(std::size_t number, std::size_t divisor) {
+    return (number + divisor - 1) / divisor;
+}
+
 /// Bounces to reckon with.
 std::size_t foreseenBounces(const BakeOptions& options) {
     constexpr std::size_t kForEndless = 10;
@@ -63,9 +67,10 @@ MatrixPlan divideMatrixMemory(const BakeOptions& options, const MatrixBytes& byt
     MatrixPlan plan;
     std::size_t leftBytes = roomBytes - bytes.least();
     if (bytes.column > 0) {
-        const std::size_t moreColumns = std::min(bytes.columnCount - 1, leftBytes / bytes.column);
-        plan.columnsAtOnce = 1 + moreColumns;
-        leftBytes -= moreColumns * bytes.column;
+        // As many times as must be, and then no more at once than that takes.
+        const std::size_t most = std::min(1 + leftBytes / bytes.column, bytes.columnCount);
+        plan.columnsAtOnce = divideUp(bytes.columnCount, divideUp(bytes.columnCount, most));
+        leftBytes -= (plan.columnsAtOnce - 1) * bytes.column;
     }
     plan.tables = {bytes.tables > leftBytes + bytes.windows, options.scratchFolder};
     taken.memory = roomBytes - leftBytes;
@@ -82,8 +87,7 @@ std::uint64_t countMatrixRays(const BakeOptions& options, const MatrixBytes& byt
     const std::size_t bounceCount = foreseenBounces(options);
     std::uint64_t receiverCount = bytes.fronts + bytes.backs;
     if (bounceCount > 0) {
-        const std::size_t blockCount =
-            (bytes.columnCount + plan.columnsAtOnce - 1) / plan.columnsAtOnce;
+        const std::size_t blockCount = divideUp(bytes.columnCount, plan.columnsAtOnce);
         receiverCount +=
             blockCount * (bounceCount * bytes.fronts + (bounceCount - 1) * bytes.backs);
     }
