@@ -42,7 +42,8 @@ class Trials {
         : layer_(layer),
           part_(takePart(layer, options.seed)),
           options_(options),
-          errorWeights_(weighRows(options.light, rowLength(), layer.channelCount)),
+          errorWeights_(
+              weighRows(options.light, rowLength(), layer.channelCount, layer.incidentBandCount)),
           threadCount_(threadCount),
           progress_(progress) {}
 
@@ -109,7 +110,8 @@ class Trials {
 
     /// The error as it is measured of transfer that is all lost.
     double wholeError() const {
-        CompressedLayer nothing{.channelCount = part_.channelCount};
+        CompressedLayer nothing{.channelCount = part_.channelCount,
+                                .incidentBandCount = part_.incidentBandCount};
         nothing.table.numbers =
             CoefficientTable(part_.coefficients.rowCount(), rowLength(), sizeof(float));
         return measure(nothing, part_);

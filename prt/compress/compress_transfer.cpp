@@ -47,10 +47,11 @@ CompressedLayer compressByClusters(const TransferLayer& layer, const CompressOpt
     if (options.budget)
         return compressToBudget(layer, clusters, *options.budget, options.threadCount,
                                 options.progress);
-    ClusteredTable clustered = compressClusters(
-        layer.coefficients,
-        weighRows(clusters.light, layer.coefficients.columnCount(), layer.channelCount), clusters,
-        options.encoding, options.threadCount, options.progress);
+    ClusteredTable clustered =
+        compressClusters(layer.coefficients,
+                         weighRows(clusters.light, layer.coefficients.columnCount(),
+                                   layer.channelCount, layer.incidentBandCount),
+                         clusters, options.encoding, options.threadCount, options.progress);
     return {.transport = layer.transport,
             .channelCount = layer.channelCount,
             .table = std::move(clustered.table),

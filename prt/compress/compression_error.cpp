@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "prt/base/assert.h"
 #include "prt/compress/light_error_weights.h"
@@ -10,17 +11,21 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kReceiversAtOnce = 4096;
+constexpr std::size_t kNumbersAtOnce = std::size_t{1} << 20;
 
 /// Sums over the coefficients of receivers, which are added block by block.
 class ErrorSums {
   public:
+    /// @param layer      whose kind it is
     /// @param rowLength  coefficients of all channels
-    ErrorSums(std::span<const Vec3d> light, std::size_t rowLength, int channelCount)
+    ErrorSums(std::span<const Vec3d> light, std::size_t rowLength, const CompressedLayer& layer)
         : light_(light),
-          weights_(weighRows(light, rowLength, channelCount)),
+          weights_(weighRows(light, rowLength, layer.channelCount, layer.incidentBandCount)),
           rowLength_(rowLength),
-          channelCount_(static_cast<std::size_t>(channelCount)) {}
+          channelCount_(static_cast<std::size_t>(layer.channelCount)),
+          // From coefficients of incident radiance to the hemisphere's mean: 1/2π of the squares,
+          // and 1/√π of the constant.
+          seenPerCoefficient_(layer.incidentBandCount > 0 ? std::numbers::sqrt2 / 2.0 : 1.0) {}
 
     void add(std::span<const float> stored, std::span<const float> truth) {
         PRT_ASSERT(stored.size() == truth.size(), "both layers have the same coefficients");
@@ -43,7 +48,8 @@ class ErrorSums {
         const double vectorCount =
             static_cast<double>(count_) / static_cast<double>(coefficientCount());
         if (radiance_ != 0.0)
-            error.seen = std::sqrt(seenSquares_ / vectorCount) / std::abs(radiance_ / vectorCount);
+            error.seen = seenPerCoefficient_ * std::sqrt(seenSquares_ / vectorCount) /
+                         std::abs(radiance_ / vectorCount);
         return error;
     }
 
@@ -65,6 +71,7 @@ class ErrorSums {
     std::vector<float> weights_;
     std::size_t rowLength_;
     std::size_t channelCount_;
+    double seenPerCoefficient_;
     std::size_t count_ = 0;
     double squares_ = 0.0, truthSquares_ = 0.0, largest_ = 0.0;
     double seenSquares_ = 0.0, radiance_ = 0.0;
@@ -75,10 +82,11 @@ template <class ReadTruth>
 CompressionError compare(const CompressedLayer& compressed, std::size_t rowLength,
                          std::span<const Vec3d> light, ReadTruth readTruth) {
     const LayerDecoder decoder(compressed);
-    ErrorSums sums(light, rowLength, compressed.channelCount);
+    ErrorSums sums(light, rowLength, compressed);
     const std::size_t receiverCount = compressed.table.numbers.rowCount();
-    for (std::size_t begin = 0; begin < receiverCount; begin += kReceiversAtOnce) {
-        const std::size_t count = std::min(kReceiversAtOnce, receiverCount - begin);
+    const std::size_t receiversAtOnce = std::max<std::size_t>(1, kNumbersAtOnce / rowLength);
+    for (std::size_t begin = 0; begin < receiverCount; begin += receiversAtOnce) {
+        const std::size_t count = std::min(receiversAtOnce, receiverCount - begin);
         sums.add(decoder.expand(begin, count), readTruth(begin, count));
     }
     return sums.result();

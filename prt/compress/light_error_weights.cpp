@@ -38,13 +38,22 @@ std::vector<float> lightErrorWeights(std::span<const Vec3d> light, int bandCount
     return rounded;
 }
 
-std::vector<float> weighRows(std::span<const Vec3d> light, std::size_t rowLength,
-                             int channelCount) {
+std::vector<float> weighRows(std::span<const Vec3d> light, std::size_t rowLength, int channelCount,
+                             int incidentBandCount) {
     if (light.empty()) return {};
+    const auto rowCount = static_cast<std::size_t>(
+        incidentBandCount == 0 ? 1 : shCoefficientCount(incidentBandCount));
+    const auto channels = static_cast<std::size_t>(channelCount);
+    const std::size_t coefficientCount = rowLength / (channels * rowCount);
     const auto bandCount =
-        static_cast<int>(std::lround(std::sqrt(static_cast<double>(rowLength) / channelCount)));
-    std::vector<float> weights = lightErrorWeights(light, bandCount, channelCount);
-    PRT_ASSERT(weights.size() == rowLength, "a row has all bands of its channels");
+        static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficientCount))));
+    const std::vector<float> once = lightErrorWeights(light, bandCount, channelCount);
+    PRT_ASSERT(once.size() * rowCount == rowLength, "a row has all bands of its channels");
+    std::vector<float> weights;
+    for (std::size_t channel = 0; channel < channels; ++channel)
+        for (std::size_t i = 0; i < rowCount; ++i)
+            for (std::size_t j = 0; j < coefficientCount; ++j)
+                weights.push_back(once[channel * coefficientCount + j]);
     return weights;
 }
 

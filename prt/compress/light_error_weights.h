@@ -27,8 +27,15 @@ namespace prt {
 /// @return              [channel][coefficient]
 std::vector<float> lightErrorWeights(std::span<const Vec3d> light, int bandCount, int channelCount);
 
-/// The same for rows of transfer, whose length tells the bands; none without light, as VectorSet
+/// The same for the rows of a layer, whose length tells the bands; none without light, as VectorSet
 /// has errors that all weigh alike.
-std::vector<float> weighRows(std::span<const Vec3d> light, std::size_t rowLength, int channelCount);
+///
+/// Of matrices, M_ij has the weight of j, so that the weighted squared error is that of the
+/// incident radiance, Σ_i l_i².
+///
+/// @param incidentBandCount  as that of a TransferLayer: 0 of vectors
+/// @return                   [channel][coefficient], or [channel][i][j]
+std::vector<float> weighRows(std::span<const Vec3d> light, std::size_t rowLength, int channelCount,
+                             int incidentBandCount);
 
 }  // namespace prt
