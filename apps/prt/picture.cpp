@@ -25,7 +25,8 @@ void writePicture(const std::string& path, const Image& radiance, const DisplayO
 float chooseExposure(const Lighting& lighting) {
     constexpr double kBrightest = 0.8;
     double brightest = 0.0;
-    const Image irradiance = reconstructLatLong(convolveWithCosine(truncate(lighting, 3)), 64);
+    const Lighting lowest = truncate(lighting, std::min(3, lighting.bandCount));
+    const Image irradiance = reconstructLatLong(convolveWithCosine(lowest), 64);
     for (const Vec3f& value : irradiance.pixels)
         brightest = std::max(brightest, luminance(Vec3d(value)) * std::numbers::inv_pi);
     return brightest > 0.0 ? static_cast<float>(std::log2(kBrightest / brightest)) : 0.0f;
