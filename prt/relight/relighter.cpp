@@ -20,6 +20,7 @@ std::variant<VectorBlocks, ClusterBlocks> makeBlocks(const CompressedTransfer& t
                                                      const CompressedLayer& layer) {
     PRT_ASSERT(transfer.bandCount >= 1 && transfer.bandCount <= kMaxBandCount,
                "a band count of the kernels");
+    PRT_ASSERT(!isGlossy(layer.transport), "a layer of vectors");
     PRT_ASSERT(layer.channelCount == 1 || layer.channelCount == 3, "grey or coloured transfer");
     PRT_ASSERT(isComplete(transfer, layer), "transfer for each receiver");
     if (layer.bases) return ClusterBlocks(layer, transfer.bandCount);
