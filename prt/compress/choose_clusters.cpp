@@ -95,8 +95,10 @@ class Trials {
 
     static TransferLayer takePart(const TransferLayer& layer, std::uint64_t seed) {
         constexpr std::size_t kMostRows = std::size_t{1} << 15;
+        constexpr std::size_t kMostNumbers = 10'000'000;
         const CoefficientTable& all = layer.coefficients;
-        const auto indices = drawIndices(all.rowCount(), kMostRows, RandomStream(seed, 5));
+        const std::size_t rowCount = std::min(kMostRows, kMostNumbers / all.columnCount());
+        const auto indices = drawIndices(all.rowCount(), rowCount, RandomStream(seed, 5));
         std::vector<float> rows(indices.size() * all.columnCount());
         readRows(all, indices, rows);
         return {layer.transport, layer.channelCount, makeTable(all.columnCount(), rows),

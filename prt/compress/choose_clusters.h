@@ -21,9 +21,9 @@ double countBytesPerReceiver(const CompressedLayer& layer);
 /// number of bytes, or the fewest bytes for an error, and stores a layer so. Where clusters do not
 /// pay, because there are few receivers or hardly any error is allowed, it is stored by columns.
 ///
-/// Tries what may be best on up to 2¹⁵ receivers that are spread over all. What is promised is
-/// promised of the result: under maxError it is measured, and where a trial was too hopeful, the
-/// next better one is taken; and a cluster has no more components than it needs.
+/// Tries what may be best on up to 2¹⁵ receivers, or 10⁷ numbers, that are spread over all. What is
+/// promised is promised of the result: under maxError it is measured, and where a trial was too
+/// hopeful, the next better one is taken; and a cluster has no more components than it needs.
 ///
 /// The same seed gives the same bits for any number of threads (C10).
 ///
