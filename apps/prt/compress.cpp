@@ -15,7 +15,6 @@
 #include "apps/prt/interrupts.h"
 #include "apps/prt/light_argument.h"
 #include "apps/prt/limits.h"
-#include "apps/prt/relit_asset.h"
 #include "apps/prt/stage_log.h"
 #include "apps/prt/staged_folder.h"
 #include "apps/prt/text.h"
@@ -79,6 +78,20 @@ CompressedTransfer takeLayer(const CompressedTransfer& transfer, Transport trans
             {*transfer.findLayer(transport)}};
 }
 
+/// The fullest of the layers of vectors, for what matrices have no use for.
+///
+/// @throws Error  invalidOption where there are matrices alone
+Transport fullestVectors(const CompressedTransfer& transfer, const std::string& option,
+                         const std::string& path) {
+    std::optional<Transport> fullest;
+    for (const CompressedLayer& layer : transfer.layers)
+        if (!isGlossy(layer.transport)) fullest = layer.transport;
+    if (!fullest)
+        throw Error(ErrorCode::invalidOption, "has only matrices, and " + option + " needs vectors",
+                    path, "leave it out, or keep a kind that is not glossy");
+    return *fullest;
+}
+
 /// Fills a folder that appears whole or not at all, and tells where it is.
 template <class Fill>
 void writeFolder(const std::string& name, const std::string& firstFile, StageLog& log, Fill fill) {
@@ -90,14 +103,14 @@ void writeFolder(const std::string& name, const std::string& firstFile, StageLog
     log.tell("see " + (std::filesystem::path(name) / firstFile).string());
 }
 
-/// Reports on the fullest of the layers.
+/// Reports on the fullest of the layers of vectors.
 void makeReport(const CompressArguments& arguments, Asset original,
                 const CompressedTransfer& compressed, const CompressOptions& options,
                 StageLog& log) {
     const CompressReportArguments& asked = arguments.report;
     const ImageLimits limits = arguments.limits.images();
     const LightSource light = loadLight(asked.light, original.transfer.bandCount, {}, limits);
-    const Transport fullest = fullestTransport(compressed);
+    const Transport fullest = fullestVectors(compressed, "--report", arguments.asset);
     original.transfer = takeLayer(original.transfer, fullest);
     decodeTextures(original.scene, limits);
     CompressReport report = examineCompression(original, takeLayer(compressed, fullest), options,
@@ -145,7 +158,12 @@ void runCompress(const CompressArguments& arguments) {
     const std::vector<Vec3d> light =
         loadErrorLight(arguments.method, asset.transfer.bandCount, arguments.limits);
     log.finishStage("load", load.seconds(), arguments.asset);
-    if (!arguments.textures.empty()) checkFillsTextures(asset.transfer, arguments.asset);
+    if (!arguments.report.folder.empty())
+        fullestVectors(asset.transfer, "--report", arguments.asset);
+    if (!arguments.textures.empty()) {
+        fullestVectors(asset.transfer, "--textures", arguments.asset);
+        checkFillsTextures(asset.transfer, arguments.asset);
+    }
 
     const Stopwatch compress;
     if (options.clusters) options.clusters->light = light;
@@ -161,11 +179,12 @@ void runCompress(const CompressArguments& arguments) {
 
     writeCompressed(arguments, asset, compressed, log);
     if (!arguments.textures.empty())
-        writeFolder(arguments.textures, "textures.json", log,
-                    [&](const std::filesystem::path& folder) {
-                        writeTransferTextures(
-                            folder, takeLayer(asset.transfer, fullestTransport(asset.transfer)));
-                    });
+        writeFolder(
+            arguments.textures, "textures.json", log, [&](const std::filesystem::path& folder) {
+                writeTransferTextures(
+                    folder, takeLayer(asset.transfer, fullestVectors(asset.transfer, "--textures",
+                                                                     arguments.asset)));
+            });
     if (!arguments.report.folder.empty())
         makeReport(arguments, std::move(asset), compressed, options, log);
 }
@@ -181,7 +200,8 @@ constexpr const char* kErrorHelp = R"(
 
 The errors that are told are those of reading the new asset back, against the asset that was given: the
 root mean square over all coefficients, as a part of the transfer's; and with --weigh-by that of the radiance
-under the light turned at random, as a part of the mean radiance.
+under the light turned at random, as a part of the mean radiance: of what leaves a white surface, and of what
+comes in where the transport is glossy.
 
 Of --textures, number s of a vertex's channel is bias + scale * q/255, q the byte s mod 4 of that channel's
 texture s div 4, neither sRGB nor premultiplied; vertex v, counted mesh after mesh, is texel (v mod width,
@@ -202,12 +222,14 @@ void addCompressCommand(CLI::App& app) {
         ->type_name("OUT.prt.glb")
         ->required();
     addMethodOptions(*command, arguments->method);
-    addParsedOption(*command, "--transport", arguments->transport, parseTransport,
-                    "unshadowed|shadowed|interreflected", "keep this kind alone [all there are]");
+    addParsedOption(*command, "--transport", arguments->transport, parseTransport, "KIND",
+                    "unshadowed, shadowed, interreflected, glossy-shadowed or glossy: keep this\n"
+                    "kind alone [all there are]");
     CLI::Option* textures =
         command
-            ->add_option("--textures", arguments->textures,
-                         "also write the fullest kind as PNGs of 8 bits, a texel a vertex")
+            ->add_option(
+                "--textures", arguments->textures,
+                "also write the fullest kind of vectors as PNGs of 8 bits, a texel a vertex")
             ->type_name("DIR");
     command
         ->add_flag("--meshopt", arguments->meshopt,

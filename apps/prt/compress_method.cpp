@@ -204,7 +204,9 @@ void tellCompression(const CompressedLayer& layer, const TransferLayer& original
     text += fmt::format(" instead of {}; error {:.2g} % of the transfer", bytesBefore,
                         100.0 * error.relativeRmse);
     if (!light.empty())
-        text += fmt::format(", {:.2g} % as seen under {}", 100.0 * error.seen, arguments.light);
+        text += fmt::format(", {:.2g} % {} under {}", 100.0 * error.seen,
+                            isGlossy(layer.transport) ? "of what comes in" : "as seen",
+                            arguments.light);
     log.tell(text + fmt::format(", at most {:.2g}", error.largest));
 }
 

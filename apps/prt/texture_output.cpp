@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 /// A layer whose receivers fill a grid: the last one is repeated.
 TransferLayer fillGrid(const CompressedTransfer& transfer, std::size_t texelCount) {
     const CompressedLayer& layer = transfer.layers.front();
-    const std::size_t rowLength = coefficientsPerReceiver(transfer.bandCount, layer.channelCount);
+    const std::size_t rowLength = coefficientsPerReceiver(transfer.bandCount, layer);
     std::vector<float> rows = expandLayer(layer);
     const std::vector<float> last(rows.end() - static_cast<std::ptrdiff_t>(rowLength), rows.end());
     while (rows.size() < texelCount * rowLength)

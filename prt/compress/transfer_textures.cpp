@@ -78,6 +78,7 @@ TransferTextures packTransferTextures(const TransferLayer& layer, int bandCount,
                                       int height) {
     const CoefficientTable& table = layer.coefficients;
     PRT_ASSERT(bandCount >= 2, "the coefficients fill a texture");
+    PRT_ASSERT(!isGlossy(layer.transport), "a layer of vectors");
     PRT_ASSERT(
         width > 0 && height > 0 &&
             table.rowCount() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height),

@@ -51,7 +51,7 @@ struct TransferTextures {
 ///
 /// The error of a stored coefficient is at most its range over all texels / 510.
 ///
-/// @param layer          of width · height receivers, at least one
+/// @param layer          of vectors, of width · height receivers, at least one
 /// @param bandCount      n ≥ 2
 TransferTextures packTransferTextures(const TransferLayer& layer, int bandCount, int width,
                                       int height);

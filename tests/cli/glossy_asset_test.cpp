@@ -4,7 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fmt/format.h>
+
 #include "prt/asset/asset.h"
+#include "prt/brdf/band_limit.h"
 #include "prt/scene/procedural.h"
 #include "prt/transport/transfer_matrices.h"
 #include "tests/cli/run_prt.h"
@@ -77,12 +80,13 @@ TEST_F(CliGlossyAsset, InfoTellsTheBandsOfIncidentRadianceAndWhatIsLikeAMirror) 
     EXPECT_EQ(both.at("layers")[1].at("bytes_per_vertex"), 3 * 4 * 9 * 4);
     EXPECT_EQ(both.at("mirror_like").at("materials"), Json({"chrome"}));
     EXPECT_EQ(both.at("mirror_like").at("from_environment"), true);
-    // Two bands hold little: a lobe of half its energy from roughness 0.76 on.
-    EXPECT_NEAR(both.at("mirror_like").at("least_roughness"), 0.76, 0.01);
+    const double held = leastRoughnessHeld(kIncidentBandCount);
+    EXPECT_EQ(both.at("mirror_like").at("least_roughness"), held);
+    const std::string limit = fmt::format("(roughness under {:.2f})", held);
     const std::string table = run({"info", "both.prt.glb"}).output;
-    EXPECT_NE(table.find("chrome (roughness under 0.76): their specular light is taken from the "
-                         "environment"),
-              std::string::npos)
+    EXPECT_NE(
+        table.find("chrome " + limit + ": their specular light is taken from the environment"),
+        std::string::npos)
         << table;
     EXPECT_NE(table.find("glossy-shadowed"), std::string::npos);
 
@@ -90,13 +94,65 @@ TEST_F(CliGlossyAsset, InfoTellsTheBandsOfIncidentRadianceAndWhatIsLikeAMirror) 
     EXPECT_EQ(info("bounced.prt.glb").at("mirror_like").at("from_environment"), false);
     write("rough", {Transport::glossyShadowed}, 0.9f);
     EXPECT_TRUE(info("rough.prt.glb").at("mirror_like").at("materials").empty());
-    EXPECT_NE(run({"info", "rough.prt.glb"}).output.find("no material (roughness under 0.76)"),
+    EXPECT_NE(run({"info", "rough.prt.glb"}).output.find("no material " + limit),
               std::string::npos);
 }
 
 TEST_F(CliGlossyAsset, ABakeOfMatricesIsSound) {
     write("both", {Transport::glossyShadowed, Transport::glossy});
     EXPECT_EQ(run({"check", "both.prt.glb"}).output, "ok\n");
+}
+
+TEST_F(CliGlossyAsset, EveryMethodOfCompressionMakesASoundAssetAndTellsItsError) {
+    write("both", {Transport::glossyShadowed, Transport::glossy});
+    const std::vector<std::vector<std::string>> methods = {
+        {"--method", "u16"},
+        {"--method", "u8", "--meshopt"},
+        {"--method", "pca", "--components", "7"},
+        {"--method", "vq", "--clusters", "20"},
+        {"--method", "cpca", "--clusters", "8", "--components", "3", "--meshopt"},
+        {"--bytes-per-vertex", "40"},
+        {"--max-error", "0.1"}};
+    for (std::vector<std::string> arguments : methods) {
+        SCOPED_TRACE(arguments[1]);
+        arguments.insert(arguments.begin(), {"compress", "both.prt.glb", "-o", "small.prt.glb",
+                                             "--weigh-by", "sun:40,50,20"});
+        const std::string told = run(arguments).errors;
+        for (const std::string transport : {"glossy-shadowed", "glossy"})
+            EXPECT_NE(told.find("prt: " + transport + ": "), std::string::npos) << told;
+        EXPECT_NE(told.find("% of what comes in under sun:40,50,20"), std::string::npos) << told;
+        EXPECT_EQ(run({"check", "small.prt.glb"}).output, "ok\n");
+        const Json small = info("small.prt.glb");
+        ASSERT_EQ(small.at("layers").size(), 2u);
+        for (const Json& layer : small.at("layers"))
+            EXPECT_EQ(layer.at("incident_bands"), kIncidentBandCount);
+        EXPECT_LT(int(small.at("layers")[1].at("bytes_per_vertex")), 3 * 4 * 9 * 4);
+    }
+    run({"compress", "both.prt.glb", "-o", "one.prt.glb", "--transport", "glossy-shadowed"});
+    EXPECT_EQ(info("one.prt.glb").at("layers").size(), 1u);
+}
+
+TEST_F(CliGlossyAsset, TexturesAndReportsAreOfVectorsAlone) {
+    write("matrices", {Transport::glossyShadowed});
+    for (const std::string option : {"--textures", "--report"}) {
+        const CommandResult refused =
+            runPrt(folder, {"compress", "matrices.prt.glb", "-o", "out.prt.glb", option, "made"});
+        EXPECT_EQ(refused.exitCode, 2);
+        EXPECT_NE(refused.errors.find("matrices.prt.glb: has only matrices, and " + option),
+                  std::string::npos)
+            << refused.errors;
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.prt.glb"));
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "made"));
+    }
+    run({"scene", "box", "-o", "scene.glb"});
+    run({"bake", "scene.glb", "-o", "baked.prt.glb", "--transport", "glossy-shadowed", "--bands",
+         "2", "--incident-bands", "2", "--samples", "16"});
+    run({"compress", "baked.prt.glb", "-o", "out.prt.glb", "--method", "u8", "--textures", "maps",
+         "--report", "report", "--size", "32x18"});
+    EXPECT_EQ(Json::parse(readText(folder.path() / "maps" / "textures.json")).at("transport"),
+              "shadowed");
+    EXPECT_EQ(Json::parse(readText(folder.path() / "report" / "compression.json")).at("transport"),
+              "shadowed");
 }
 
 }  // namespace
