@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::string_view kMeasuredPrefix = "merl:";
 
+/// Such a lobe is a mirror to every purpose of ours.
+constexpr double kMaxExponent = 1e6;
+
 /// A BRDF that numbers describe.
 struct BrdfKind {
     std::string_view prefix;
@@ -52,7 +55,8 @@ bool startsWithKind(std::string_view text) {
 }
 
 [[noreturn]] void throwMalformed(const std::string& argument, const std::string& complaint) {
-    throw Error(ErrorCode::invalidOption, complaint, argument, "see prt brdf --help");
+    throw Error(ErrorCode::invalidOption, complaint, argument.empty() ? "''" : argument,
+                "see prt brdf --help");
 }
 
 /// "0.5,1,2"; empty if a part is not a number.
@@ -73,11 +77,10 @@ BrdfSource parseKind(const std::string& spec, const BrdfKind& kind) {
     if (numbers.size() != kind.numberCount)
         throwMalformed(spec, fmt::format("is not {} with {} numbers", kind.form, kind.numberCount));
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const bool isShare = i < kind.sharesCount;
-        if (numbers[i] < 0.0 || (isShare && numbers[i] > 1.0))
-            throwMalformed(spec,
-                           fmt::format("has {} where {} is wanted", numbers[i],
-                                       isShare ? "a number from 0 to 1" : "one of at least 0"));
+        const double largest = i < kind.sharesCount ? 1.0 : kMaxExponent;
+        if (numbers[i] < 0.0 || numbers[i] > largest)
+            throwMalformed(spec, fmt::format("has {} where a number from 0 to {} is wanted",
+                                             numbers[i], largest));
     }
     numbers.resize(5, 0.0);
     return kind.make({numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4]);
@@ -122,7 +125,8 @@ void addBrdfOption(CLI::App& command, std::vector<BrdfArgument>& arguments) {
     };
     command
         .add_option_function<std::vector<std::string>>(
-            "--brdf", read, "what all materials, or one, are made of instead; see prt brdf --help")
+            "--brdf", read,
+            "what materials are made of instead (see prt brdf --help); may be given again")
         ->type_name("[MATERIAL=]SPEC")
         ->allow_extra_args(false);
 }

@@ -10,6 +10,7 @@ void addBakeCommand(CLI::App& app);
 void addMergeCommand(CLI::App& app);
 void addCompressCommand(CLI::App& app);
 void addLightCommand(CLI::App& app);
+void addBrdfCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);

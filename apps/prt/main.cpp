@@ -72,6 +72,7 @@ int runCommand(int argumentCount, char** arguments) {
     prt::cli::addMergeCommand(app);
     prt::cli::addCompressCommand(app);
     prt::cli::addLightCommand(app);
+    prt::cli::addBrdfCommand(app);
     prt::cli::addRenderCommand(app);
     prt::cli::addCompareCommand(app);
     prt::cli::addInfoCommand(app);

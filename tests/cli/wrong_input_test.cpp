@@ -168,6 +168,45 @@ TEST(CliWrongLight, MalformedLightsAreWrongUsage) {
         expectOneSentence(folder, {"light", light}, kWrongUsage, {light});
 }
 
+TEST(CliWrongBrdf, MalformedOnesAreWrongUsage) {
+    const TemporaryFolder folder;
+    for (const std::string spec :
+         {"lambert:1,1", "lambert:1,1,2", "ggx:1,1,1", "ggx:1,1,1,1.5", "phong:1,1,1,-1",
+          "phong:1,1,1,1e9", "gltf:1,1,1,nan,1", "steel", "lambert:1,1,1,", "floor=lambert:1,1,1"})
+        expectOneSentence(folder, {"brdf", spec}, kWrongUsage, {spec, "prt brdf --help"});
+    expectOneSentence(folder, {"brdf", "lambert:1,1,1", "--picture", "lobe.jpg"}, kWrongUsage,
+                      {"lobe.jpg", ".png"});
+    expectOneSentence(folder, {"brdf", "lambert:1,1,1", "--bands", "11"}, kWrongUsage, {"--bands"});
+}
+
+TEST(CliWrongBrdf, MaterialsThatAreNotThereOrGivenTwiceAreWrongUsage) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(runPrt(folder, {"scene", "cornell", "-o", "a.glb"}).exitCode, 0);
+    const auto refuse = [&](const std::vector<std::string>& specs,
+                            const std::vector<std::string>& words) {
+        std::vector<std::string> command = bakeCommand("a.glb");
+        command.insert(command.end(), {"--transport", "glossy"});
+        for (const std::string& spec : specs)
+            command.insert(command.end(), {"--brdf", spec});
+        expectOneSentence(folder, command, kWrongUsage, words);
+    };
+    refuse({"blue=lambert:1,1,1"}, {"a.glb", "'blue'", "green, red, white"});
+    refuse({"lambert:1,1,1", "ggx:1,1,1,1"}, {"--brdf", "twice for all materials"});
+    refuse({"red=lambert:1,1,1", "lambert:1,1,1", "red=ggx:1,1,1,1"}, {"--brdf", "twice", "'red'"});
+    refuse({"red=lambert:1,1,2"}, {"lambert:1,1,2", "from 0 to 1"});
+}
+
+TEST(CliWrongBrdf, MeasuredFilesOfAnotherSizeAreRefused) {
+    const TemporaryFolder folder;
+    expectOneSentence(folder, {"brdf", "merl:lost.binary"}, kDataAtFault,
+                      {"lost.binary", "does not exist"});
+    std::string file("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", 12);  // 90, 90, 180
+    file.resize(10'000);
+    writeText(folder.path() / "short.binary", file);
+    expectOneSentence(folder, {"brdf", "merl:short.binary"}, kDataAtFault,
+                      {"short.binary", "34992012"});
+}
+
 TEST(CliWrongLight, MalformedCoefficientsAreRefused) {
     const TemporaryFolder folder;
     writeText(folder.path() / "a.json",
