@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
 
 #include "prt/base/assert.h"
 #include "prt/brdf/brdf.h"
+#include "prt/light/resampling.h"
 #include "prt/math/frame.h"
 #include "prt/parallel/parallel_for.h"
 #include "prt/render/reflection.h"
@@ -44,11 +46,14 @@ MirrorEnvironment makeMirrorEnvironment(Environment environment, const Mat3d& wo
     result.worldFromEnvironment = worldFromEnvironment;
     result.roughnesses.assign(kRoughnesses.begin(), last + 1);
     result.mirrors.resize(result.roughnesses.size());
+    // Drawn once for all, as prefiltering draws it.
+    const int size = 4 * static_cast<int>(std::bit_ceil(static_cast<unsigned>(options.faceSize)));
+    const Environment reduced = resample(environment, SphereMap::octahedral, size, size);
     parallelFor(result.mirrors.size() - 1, {options.threadCount, 1},
                 [&](std::size_t begin, std::size_t end) {
                     for (std::size_t level = begin + 1; level <= end; ++level)
                         result.mirrors[level] =
-                            prefilterEnvironment(environment,
+                            prefilterEnvironment(reduced,
                                                  {.faceSize = options.faceSize,
                                                   .roughnesses = {result.roughnesses[level]},
                                                   .sampleCount = options.sampleCount})
