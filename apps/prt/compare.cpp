@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "apps/prt/arguments.h"
+#include "apps/prt/brdf_argument.h"
 #include "apps/prt/commands.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/light_argument.h"
@@ -20,6 +22,8 @@
 #include "apps/prt/staged_folder.h"
 #include "apps/prt/view_options.h"
 #include "prt/base/error.h"
+#include "prt/light/environment.h"
+#include "prt/render/exit_shading.h"
 
 namespace prt::cli {
 namespace {
@@ -37,7 +41,8 @@ struct CompareArguments {
     std::vector<std::string> lights;
     std::string output;
     ViewArguments view{.size = {640, 360}};
-    std::optional<Transport> transport;
+    std::optional<ShownTransport> transport;
+    std::vector<BrdfArgument> brdfs;
     std::optional<int> bounceCount;
     BandCounts bandCounts;
     bool triple = false;
@@ -66,6 +71,11 @@ std::size_t countVertexBytes(const CompressedLayer& layer) {
            static_cast<std::size_t>(std::ceil(sharedBytesPerReceiver(layer)));
 }
 
+/// What --triple shows one beside the other.
+constexpr std::array kTriple = {ShownTransport::unshadowed,     ShownTransport::shadowed,
+                                ShownTransport::interreflected, ShownTransport::glossyUnshadowed,
+                                ShownTransport::glossyShadowed, ShownTransport::glossy};
+
 /// Compares one asset with its path-traced truth, under one light after the other.
 class AssetComparison {
   public:
@@ -73,7 +83,9 @@ class AssetComparison {
         : arguments_(arguments),
           log_(log),
           asset_(readTimed()),
-          transport_(arguments.transport.value_or(fullestTransport(asset_.transfer))),
+          brdfs_(resolveBrdfs(asset_.scene, arguments.brdfs, arguments.asset)),
+          shown_(chooseShown(asset_, arguments.asset, arguments.transport, brdfs_)),
+          relighter_(asset_, arguments.asset, brdfs_, arguments.threadCount),
           camera_(chooseCamera(arguments.view, asset_.scene, arguments.asset)),
           rotation_(rotationFromDegrees(arguments.rotationDegrees)),
           rays_(asset_.scene, {.threadCount = arguments.threadCount}) {
@@ -81,36 +93,43 @@ class AssetComparison {
             throw Error(ErrorCode::invalidOption,
                         fmt::format("was baked with {} bands only", asset_.transfer.bandCount),
                         arguments.asset, "ask for fewer --band-counts, or bake more --bands");
+        for (const std::optional<Brdf>& brdf : brdfs_)
+            tracedBrdfs_.push_back(brdf.value_or(Brdf()));
         referenceOptions_ = makeReferenceOptions();
     }
 
     ReportLight compareUnder(const LightSource& source, const std::string& name) {
         const Lighting lighting = bandsOf(source, asset_.transfer.bandCount);
-        const std::vector<Vec3f> vertexRadiance = relight(transport_, lighting);
+        const std::vector<ExitRadiance> vertexRadiance = relight(shown_, lighting);
+        const MirroredLights mirrored = mirrorLights(vertexRadiance, source, lighting);
+        const Image inBands = render(vertexRadiance, mirrored.inBands);
         ReportLight light{.name = name, .bandCount = lighting.bandCount};
-        light.relit = render(vertexRadiance);
+        light.relit = inBands;
+        if (mirrored.itself) {
+            light.relit = render(vertexRadiance, mirrored.itself);
+            light.relitInBands = inBands;
+        }
 
         const Reference sameBands = trace("path tracing in bands", *makeBandLimitedLight(lighting));
         const Reference itself = trace("path tracing", *makeExactLight(source, rotation_));
         const Stopwatch watch;
-        light.sameBands = judge(light.relit, vertexRadiance, sameBands);
-        light.itself = judge(light.relit, vertexRadiance, itself);
+        light.sameBands = judge(inBands, vertexRadiance, mirrored.inBands, sameBands);
+        light.itself = judge(light.relit, vertexRadiance, mirrored.itself, itself);
         finishStage("measure", watch, name);
 
         for (int n = arguments_.bandCounts.first; n <= arguments_.bandCounts.last; ++n)
             light.byBandCount.emplace_back(
-                n, relightAndJudge(transport_, bandsOf(source, n), itself.view));
-        for (const Transport layer :
-             {Transport::unshadowed, Transport::shadowed, Transport::interreflected})
-            if (arguments_.triple && layer <= transport_)
-                light.byTransport.emplace_back(layer,
-                                               relightAndJudge(layer, lighting, sameBands.view));
+                n, relightAndJudge(shown_, bandsOf(source, n), mirrored.itself, itself.view));
+        for (const ShownTransport shown : kTriple)
+            if (arguments_.triple && shown <= shown_ && isAvailable(asset_.transfer, shown))
+                light.byTransport.emplace_back(
+                    shown, relightAndJudge(shown, lighting, mirrored.inBands, sameBands.view));
         return light;
     }
 
     /// All but the lights.
     Report makeReport() const {
-        const CompressedLayer* layer = asset_.transfer.findLayer(transport_);
+        const CompressedLayer* layer = findShownLayer(asset_.transfer, shown_);
         return {.asset = arguments_.asset,
                 .command = arguments_.command,
                 .provenance = asset_.provenance,
@@ -118,7 +137,8 @@ class AssetComparison {
                 .triangleCount = asset_.scene.triangleCount(),
                 .assetBytes = std::filesystem::file_size(arguments_.asset),
                 .bytesPerVertex = layer ? countVertexBytes(*layer) : 0,
-                .transport = transport_,
+                .transport = shown_,
+                .materials = describeMaterials(),
                 .referenceSamples = referenceOptions_.samplesPerRay *
                                     referenceOptions_.view.samplesPerAxis *
                                     referenceOptions_.view.samplesPerAxis,
@@ -136,19 +156,35 @@ class AssetComparison {
     }
 
     ReferenceOptions makeReferenceOptions() const {
-        const int bakedBounces =
-            transport_ == Transport::interreflected ? asset_.provenance.bounceCount : 0;
-        ReferenceOptions options = {.view = {.width = arguments_.view.size.width,
-                                             .height = arguments_.view.size.height,
-                                             .seed = arguments_.seed,
-                                             .threadCount = arguments_.threadCount,
-                                             .progress = log_.callback()},
-                                    .samplesPerVertex = arguments_.referenceSamples,
-                                    .bounceCount = arguments_.bounceCount.value_or(bakedBounces)};
+        const int bakedBounces = hasBounces(shown_) ? asset_.provenance.bounceCount : 0;
+        ReferenceOptions options = {
+            .view = {.width = arguments_.view.size.width,
+                     .height = arguments_.view.size.height,
+                     .seed = arguments_.seed,
+                     .threadCount = arguments_.threadCount,
+                     .progress = log_.callback()},
+            .samplesPerVertex = arguments_.referenceSamples,
+            .bounceCount = arguments_.bounceCount.value_or(bakedBounces),
+            .surfaceModel = isGlossy(shown_) ? SurfaceModel::gltf : SurfaceModel::diffuse,
+            .materialBrdfs = tracedBrdfs_};
         const int raysPerPixel = options.view.samplesPerAxis * options.view.samplesPerAxis;
         options.samplesPerRay =
             std::max(2, (arguments_.referenceSamples + raysPerPixel - 1) / raysPerPixel);
         return options;
+    }
+
+    /// What the reports of glossy assets say of each material.
+    std::vector<ReportMaterial> describeMaterials() const {
+        std::vector<ReportMaterial> materials;
+        for (std::size_t i = 0; isGlossy(shown_) && i < asset_.scene.materials.size(); ++i) {
+            const Material& material = asset_.scene.materials[i];
+            materials.push_back(
+                {.name = material.name.empty() ? fmt::format("material {}", i) : material.name,
+                 .surface = {material.metallicFactor, material.roughnessFactor},
+                 .isTextured = material.metallicRoughnessTexture.has_value(),
+                 .isReplaced = !brdfs_.empty() && brdfs_[i].has_value()});
+        }
+        return materials;
     }
 
     Lighting bandsOf(const LightSource& source, int bandCount) const {
@@ -156,18 +192,39 @@ class AssetComparison {
                         std::min(bandCount, source.lighting.bandCount));
     }
 
-    std::vector<Vec3f> relight(Transport transport, const Lighting& lighting) {
+    std::vector<ExitRadiance> relight(ShownTransport shown, const Lighting& lighting) {
         const Stopwatch watch;
-        std::vector<Vec3f> radiance =
-            relightVertices(asset_, arguments_.asset, transport, lighting);
+        std::vector<ExitRadiance> radiance = relighter_.relight(shown, lighting, camera_.eye);
         addSeconds("relight", watch.seconds());
         return radiance;
     }
 
-    Image render(const std::vector<Vec3f>& vertexRadiance) {
+    /// What mirror-like surfaces show of a light, if there are any.
+    struct MirroredLights {
+        std::optional<MirrorEnvironment> inBands{};
+        std::optional<MirrorEnvironment> itself{};
+    };
+
+    MirroredLights mirrorLights(const std::vector<ExitRadiance>& vertexRadiance,
+                                const LightSource& source, const Lighting& lighting) {
+        constexpr int kReconstructionWidth = 256;  // of ten bands at most
+        if (!hasMirrors(vertexRadiance)) return {};
         const Stopwatch watch;
-        Image picture =
-            renderView(asset_.scene, rays_, vertexRadiance, camera_, referenceOptions_.view);
+        const MirrorOptions options{.threadCount = arguments_.threadCount};
+        MirroredLights lights;
+        lights.inBands = makeMirrorEnvironment(
+            {SphereMap::latLong, reconstructLatLong(lighting, kReconstructionWidth)}, {}, options);
+        lights.itself = makeMirrorEnvironment(makeMirroredLight(source), rotation_, options);
+        addSeconds("prefilter", watch.seconds());
+        return lights;
+    }
+
+    Image render(const std::vector<ExitRadiance>& vertexRadiance,
+                 const std::optional<MirrorEnvironment>& mirrors) {
+        const Stopwatch watch;
+        RenderOptions view = referenceOptions_.view;
+        if (mirrors) view.mirrors = &*mirrors;
+        Image picture = renderView(asset_.scene, rays_, vertexRadiance, camera_, view);
         addSeconds("render", watch.seconds());
         return picture;
     }
@@ -180,17 +237,38 @@ class AssetComparison {
         return reference;
     }
 
-    JudgedPicture relightAndJudge(Transport transport, const Lighting& lighting,
+    JudgedPicture relightAndJudge(ShownTransport shown, const Lighting& lighting,
+                                  const std::optional<MirrorEnvironment>& mirrors,
                                   const PathTracedView& reference) {
-        Image picture = render(relight(transport, lighting));
+        Image picture = render(relight(shown, lighting), mirrors);
         PictureComparison comparison = comparePictures(picture, reference, arguments_.display);
         return {std::move(picture), std::move(comparison)};
     }
 
-    JudgedReference judge(const Image& relit, const std::vector<Vec3f>& vertexRadiance,
+    JudgedReference judge(const Image& relit, const std::vector<ExitRadiance>& vertexRadiance,
+                          const std::optional<MirrorEnvironment>& mirrors,
                           const Reference& reference) const {
-        return {reference.view.radiance, comparePictures(relit, reference.view, arguments_.display),
-                compareAtVertices(vertexRadiance, reference), reference.vertices.size()};
+        JudgedReference judged{
+            .radiance = reference.view.radiance,
+            .comparison = comparePictures(relit, reference.view, arguments_.display),
+            .atVertices = compareAtVertices(showVertices(vertexRadiance, mirrors), reference),
+            .vertexCount = reference.vertices.size()};
+        if (isGlossy(shown_))
+            judged.byMaterial = compareMaterials(asset_.scene, rays_, camera_,
+                                                 referenceOptions_.view, relit, reference.view);
+        return judged;
+    }
+
+    /// As the reference has them: B of diffuse surfaces, what others send to the eye.
+    std::vector<Vec3f> showVertices(const std::vector<ExitRadiance>& vertexRadiance,
+                                    const std::optional<MirrorEnvironment>& mirrors) const {
+        if (isGlossy(shown_))
+            return shadeVertices(asset_.scene, vertexRadiance, camera_.eye,
+                                 mirrors ? &*mirrors : nullptr);
+        std::vector<Vec3f> radiance;
+        for (const ExitRadiance& exit : vertexRadiance)
+            radiance.push_back(exit.perBaseColor);
+        return radiance;
     }
 
     void finishStage(const std::string& stage, const Stopwatch& watch, const std::string& summary) {
@@ -211,7 +289,10 @@ class AssetComparison {
     StageLog& log_;
     std::vector<std::pair<std::string, double>> seconds_;
     Asset asset_;
-    Transport transport_;
+    GivenBrdfs brdfs_;
+    std::vector<Brdf> tracedBrdfs_;  // as WalkOptions has them
+    ShownTransport shown_;
+    AssetRelighter relighter_;
     Camera camera_;
     Mat3d rotation_;
     RayScene rays_;
@@ -277,16 +358,16 @@ void addCompareCommand(CLI::App& app) {
         ->required();
     addIntegerOption(*command, "--reference-samples", arguments->referenceSamples, 32, 1 << 20,
                      "paths a pixel and a vertex; rounded up to a multiple of 16");
-    addParsedOption(*command, "--transport", arguments->transport, parseTransport,
-                    "unshadowed|shadowed|interreflected",
-                    "how much of light transport to compare [all there is]");
+    addParsedOption(*command, "--transport", arguments->transport, parseShownTransport,
+                    kShownTransportForms, "how much of light transport to compare [all there is]");
+    addBrdfOption(*command, arguments->brdfs);
     addParsedOption(*command, "--bounces", arguments->bounceCount, parseBounceCount, "N|inf",
                     "indirect bounces of the reference [as many as were baked]");
     addParsedOption(*command, "--band-counts", arguments->bandCounts, parseBandCounts,
                     "N|FIRST:LAST",
                     "also relight with so many bands of the light, each held against the truth");
     command->add_flag("--triple", arguments->triple,
-                      "also show the asset unshadowed, shadowed and interreflected");
+                      "also show the asset unshadowed, shadowed and interreflected, and glossy so");
     addRotationOption(*command, arguments->rotationDegrees);
     addViewOptions(*command, arguments->view);
     addDisplayOptions(*command, arguments->display);

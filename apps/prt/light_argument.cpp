@@ -160,6 +160,11 @@ Environment makeBackground(const LightSource& light) {
     return {SphereMap::latLong, reconstructLatLong(light.lighting, kReconstructionWidth)};
 }
 
+Environment makeMirroredLight(const LightSource& light) {
+    constexpr int kHeight = 512;  // a texel is a third of a degree wide
+    return light.sun ? drawLight(light, {}, SphereMap::latLong, kHeight) : makeBackground(light);
+}
+
 Environment drawLight(const LightSource& light, const Mat3d& rotation, SphereMap map,
                       int cellSize) {
     const auto [width, height] = sphereMapSize(map, cellSize);

@@ -63,6 +63,9 @@ std::unique_ptr<DistantLight> makeExactLight(const LightSource& light, const Mat
 /// what the coefficients stand for.
 Environment makeBackground(const LightSource& light);
 
+/// The same with its sun, as mirrors show it.
+Environment makeMirroredLight(const LightSource& light);
+
 /// The light itself as an image; coefficients stand for themselves.
 ///
 /// @param cellSize  as sphereMapSize takes it

@@ -16,7 +16,7 @@ std::vector<double> deringForFile(const Lighting& lighting, const std::string& p
                     fmt::format("was baked in {} bands, the light has {}", asset.transfer.bandCount,
                                 lighting.bandCount),
                     path, fmt::format("add --bands {}", asset.transfer.bandCount));
-    return deringForAsset(asset, path, fullestTransport(asset.transfer), lighting);
+    return deringForAsset(asset, path, lighting);
 }
 
 /// The factors of --nonnegative.

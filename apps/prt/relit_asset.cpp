@@ -1,28 +1,59 @@
 #include "apps/prt/relit_asset.h"
 
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "prt/base/error.h"
+#include "prt/brdf/band_limit.h"
+#include "prt/brdf/brdf_view_table.h"
 #include "prt/compress/compress_transfer.h"
 #include "prt/io/image_io.h"
+#include "prt/parallel/parallel_for.h"
 #include "prt/relight/receiver_deringing.h"
 #include "prt/transport/unshadowed.h"
 
 namespace prt::cli {
 namespace {
 
-Relighter makeRelighter(const Asset& asset, const std::string& path, Transport transport) {
-    if (asset.transfer.findLayer(transport)) return Relighter(asset.transfer, transport);
-    if (transport == Transport::unshadowed)
-        return Relighter(
-            compressTransfer(makeUnshadowedTransfer(asset.scene, asset.transfer.bandCount),
-                             {.encoding = TransferEncoding::float32}),
-            transport);
+[[noreturn]] void throwLacking(ShownTransport shown, const std::string& path) {
     throw Error(ErrorCode::invalidOption,
-                fmt::format("was baked without {} transport", transportName(transport)), path,
-                fmt::format("bake it with --transport {}", transportName(transport)));
+                fmt::format("was baked without {} transport", shownTransportName(shown)), path,
+                fmt::format("bake it with --transport {}", shown == ShownTransport::glossyUnshadowed
+                                                               ? "glossy"
+                                                               : shownTransportName(shown)));
+}
+
+CompressedTransfer storeAsFloats(const TransferField& field) {
+    return compressTransfer(field, {.encoding = TransferEncoding::float32});
+}
+
+Relighter makeRelighter(const Asset& asset, const std::string& path, ShownTransport shown) {
+    if (const CompressedLayer* layer = findShownLayer(asset.transfer, shown))
+        return Relighter(asset.transfer, layer->transport);
+    if (shown != ShownTransport::unshadowed) throwLacking(shown, path);
+    return Relighter(storeAsFloats(makeUnshadowedTransfer(asset.scene, asset.transfer.bandCount)),
+                     Transport::unshadowed);
+}
+
+/// Of the layer that is shown, or of any that has some.
+int findIncidentBandCount(const CompressedTransfer& transfer, ShownTransport shown) {
+    if (const CompressedLayer* layer = findShownLayer(transfer, shown))
+        return layer->incidentBandCount;
+    return std::find_if(transfer.layers.begin(), transfer.layers.end(),
+                        [](const CompressedLayer& layer) { return isGlossy(layer.transport); })
+        ->incidentBandCount;
+}
+
+std::vector<std::shared_ptr<const BrdfViewTable>> makeTables(const GivenBrdfs& brdfs,
+                                                             int incidentBandCount) {
+    std::vector<std::shared_ptr<const BrdfViewTable>> tables;
+    for (const std::optional<Brdf>& brdf : brdfs)
+        tables.push_back(brdf ? std::make_shared<const BrdfViewTable>(
+                                    *brdf, BrdfViewTableOptions{.bandCount = incidentBandCount})
+                              : nullptr);
+    return tables;
 }
 
 }  // namespace
@@ -46,25 +77,94 @@ Transport fullestTransport(const CompressedTransfer& transfer) {
     return fullest;
 }
 
-std::vector<Vec3f> relightVertices(const Asset& asset, const std::string& path, Transport transport,
-                                   const Lighting& lighting) {
-    // The receivers of an asset, and of unshadowed transfer, are its vertices.
-    const Relighter relighter = makeRelighter(asset, path, transport);
-    std::vector<Vec3f> radiance(relighter.receiverCount());
-    relighter.relight(lighting, radiance);
-    return radiance;
+ShownTransport chooseShown(const Asset& asset, const std::string& path,
+                           std::optional<ShownTransport> asked, const GivenBrdfs& brdfs) {
+    const ShownTransport shown = asked.value_or(fullestShown(asset.transfer));
+    if (!isAvailable(asset.transfer, shown)) throwLacking(shown, path);
+    if (brdfs.empty() || isGlossy(shown)) return shown;
+    if (!isAvailable(asset.transfer, ShownTransport::glossyUnshadowed))
+        throwLacking(ShownTransport::glossy, path);
+    throw Error(ErrorCode::invalidOption,
+                fmt::format("is not shown by {} transport, for which all surfaces are diffuse",
+                            shownTransportName(shown)),
+                "--brdf", "show --transport glossy");
 }
 
-std::vector<double> deringForAsset(const Asset& asset, const std::string& path, Transport transport,
-                                   const Lighting& lighting) {
+AssetRelighter::AssetRelighter(const Asset& asset, std::string path, GivenBrdfs brdfs,
+                               int threadCount)
+    : asset_(asset), path_(std::move(path)), brdfs_(std::move(brdfs)), threadCount_(threadCount) {}
+
+AssetRelighter::~AssetRelighter() = default;
+
+std::vector<ExitRadiance> AssetRelighter::relight(ShownTransport shown, const Lighting& lighting,
+                                                  const Vec3f& eye) {
+    // The receivers of an asset, and of what its normals tell, are its vertices.
+    std::vector<ExitRadiance> exit(asset_.scene.vertexCount());
+    if (isGlossy(shown)) {
+        constexpr std::size_t kChunk = 32 * kGlossyPartSize;
+        const GlossyRelighter& relighter = glossyRelighter(shown);
+        parallelFor(exit.size(), {threadCount_, kChunk}, [&](std::size_t begin, std::size_t end) {
+            relighter.relight(lighting, eye, begin, std::span(exit).subspan(begin, end - begin));
+        });
+        return exit;
+    }
+    std::vector<Vec3f> radiance(exit.size());
+    makeRelighter(asset_, path_, shown).relight(lighting, radiance);
+    for (std::size_t i = 0; i < exit.size(); ++i)
+        exit[i].perBaseColor = radiance[i];
+    return exit;
+}
+
+const GlossyRelighter& AssetRelighter::glossyRelighter(ShownTransport shown) {
+    if (lastGlossy_ && lastGlossy_->first == shown) return lastGlossy_->second;
+    lastGlossy_.reset();  // before there are two
+    if (!isAvailable(asset_.transfer, shown)) throwLacking(shown, path_);
+    const int incidentBandCount = findIncidentBandCount(asset_.transfer, shown);
+    if (!views_ || views_->bandCount() != incidentBandCount)
+        views_ = std::make_shared<const GltfViewTable>(
+            GltfViewTableOptions{.bandCount = incidentBandCount});
+    const GlossyRelightOptions options{.leastRoughness = leastRoughnessHeld(incidentBandCount),
+                                       .materialTables = makeTables(brdfs_, incidentBandCount)};
+    std::optional<CompressedTransfer> ofNormals;
+    if (shown == ShownTransport::glossyUnshadowed)
+        ofNormals = storeAsFloats(
+            makeUnshadowedMatrices(asset_.scene, asset_.transfer.bandCount, incidentBandCount));
+    const CompressedTransfer& transfer = ofNormals ? *ofNormals : asset_.transfer;
+    const Transport layer =
+        shown == ShownTransport::glossy ? Transport::glossy : Transport::glossyShadowed;
+    lastGlossy_.emplace(
+        shown, GlossyRelighter(transfer, layer, describeReceivers(asset_.scene, transfer), views_,
+                               options));
+    return lastGlossy_->second;
+}
+
+bool hasMirrors(const std::vector<ExitRadiance>& vertexRadiance) {
+    return std::any_of(vertexRadiance.begin(), vertexRadiance.end(),
+                       [](const ExitRadiance& exit) { return exit.mirrorVisibility > 0.0f; });
+}
+
+std::vector<double> deringForAsset(const Asset& asset, const std::string& path,
+                                   ShownTransport shown, const Lighting& lighting) {
+    if (isGlossy(shown))
+        throw Error(ErrorCode::invalidOption,
+                    "auto cannot tell what surfaces that are not diffuse reflect", "--window",
+                    "name a window, or show --transport interreflected");
     // Eight bits a coefficient, and clusters, make more noise than the library's tolerance, which
     // is for sixteen bits.
     constexpr double kToleranceOfNoise = 1e-2;
-    const CompressedLayer* layer = asset.transfer.findLayer(transport);
+    const CompressedLayer* layer = findShownLayer(asset.transfer, shown);
     ReceiverDeringingOptions options;
     if (layer && (layer->bases || layer->table.encoding == TransferEncoding::unorm8))
         options.tolerance = kToleranceOfNoise;
-    return deringingFactors(makeRelighter(asset, path, transport), lighting, options);
+    return deringingFactors(makeRelighter(asset, path, shown), lighting, options);
+}
+
+std::vector<double> deringForAsset(const Asset& asset, const std::string& path,
+                                   const Lighting& lighting) {
+    auto shown = ShownTransport::interreflected;
+    while (!isAvailable(asset.transfer, shown))
+        shown = static_cast<ShownTransport>(static_cast<int>(shown) - 1);
+    return deringForAsset(asset, path, shown, lighting);
 }
 
 }  // namespace prt::cli

@@ -1,12 +1,19 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "apps/prt/shown_transport.h"
 #include "apps/prt/stage_log.h"
 #include "prt/asset/asset.h"
+#include "prt/brdf/brdf.h"
 #include "prt/io/image_io.h"
 #include "prt/light/lighting.h"
+#include "prt/relight/exit_radiance.h"
+#include "prt/relight/glossy_relighter.h"
 
 namespace prt::cli {
 
@@ -18,19 +25,58 @@ Asset readPreparedAsset(const std::string& path, const ImageLimits& limits, Stag
 /// The last of the layers that it was baked with.
 Transport fullestTransport(const CompressedTransfer& transfer);
 
-/// Relights one layer: B of every vertex of the scene (C7). The unshadowed layer follows from the
-/// normals, so every asset can show it; the others must have been baked.
+/// What materials are made of instead of what their file says: one a material, or none at all.
+using GivenBrdfs = std::vector<std::optional<Brdf>>;
+
+/// What is shown of an asset: what was asked for, or else all there is.
 ///
 /// @param path    how to call the asset in an error
-/// @throws Error  invalidOption for a layer that it lacks
-std::vector<Vec3f> relightVertices(const Asset& asset, const std::string& path, Transport transport,
-                                   const Lighting& lighting);
+/// @throws Error  invalidOption for what the asset cannot show, and for BRDFs that are given where
+///                surfaces are shown as if they were diffuse
+ShownTransport chooseShown(const Asset& asset, const std::string& path,
+                           std::optional<ShownTransport> asked, const GivenBrdfs& brdfs);
+
+/// Relights an asset. What its normals tell needs no layer, so every asset can show it; the others
+/// must have been baked.
+class AssetRelighter {
+  public:
+    /// @param asset  must outlive this
+    /// @param path   how to call the asset in an error
+    /// @param brdfs  of surfaces as they are
+    AssetRelighter(const Asset& asset, std::string path, GivenBrdfs brdfs = {},
+                   int threadCount = 0);
+    ~AssetRelighter();
+
+    /// What every vertex sends to an eye. Where surfaces are taken for diffuse, perBaseColor is B
+    /// (C7) and the rest 0.
+    ///
+    /// @throws Error  invalidOption for a layer that the asset lacks
+    std::vector<ExitRadiance> relight(ShownTransport shown, const Lighting& lighting,
+                                      const Vec3f& eye);
+
+  private:
+    const GlossyRelighter& glossyRelighter(ShownTransport shown);
+
+    const Asset& asset_;
+    std::string path_;
+    GivenBrdfs brdfs_;
+    int threadCount_;
+    std::shared_ptr<const GltfViewTable> views_;
+    std::optional<std::pair<ShownTransport, GlossyRelighter>> lastGlossy_;
+};
+
+/// Whether a picture of it is to show something of the environment (MirrorEnvironment).
+bool hasMirrors(const std::vector<ExitRadiance>& vertexRadiance);
 
 /// The least smoothing of a light under which no vertex reflects negative light, one factor a band.
 ///
 /// @param lighting  turned as it will be
-/// @throws Error    as relightVertices
-std::vector<double> deringForAsset(const Asset& asset, const std::string& path, Transport transport,
+/// @throws Error    invalidOption for a layer that the asset lacks, or is of matrices
+std::vector<double> deringForAsset(const Asset& asset, const std::string& path,
+                                   ShownTransport shown, const Lighting& lighting);
+
+/// The same for the fullest of the layers that show surfaces as if they were diffuse.
+std::vector<double> deringForAsset(const Asset& asset, const std::string& path,
                                    const Lighting& lighting);
 
 }  // namespace prt::cli

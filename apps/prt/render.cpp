@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/prt/arguments.h"
+#include "apps/prt/brdf_argument.h"
 #include "apps/prt/commands.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/light_argument.h"
@@ -16,6 +17,7 @@
 #include "apps/prt/stage_log.h"
 #include "apps/prt/view_options.h"
 #include "prt/base/file.h"
+#include "prt/render/mirror_shading.h"
 #include "prt/render/render_view.h"
 
 namespace prt::cli {
@@ -26,7 +28,8 @@ struct RenderArguments {
     std::string light;
     std::string output;
     ViewArguments view;
-    std::optional<Transport> transport;
+    std::optional<ShownTransport> transport;
+    std::vector<BrdfArgument> brdfs;
     Vec3d rotationDegrees{0.0, 0.0, 0.0};
     std::string window = "none";
     DisplayOptions display;
@@ -34,31 +37,44 @@ struct RenderArguments {
     ReaderLimits limits;
 };
 
+/// The light as it is turned and smoothed for what is shown of the asset.
+Lighting prepareLighting(const RenderArguments& arguments, const Asset& asset,
+                         const LightSource& light, ShownTransport shown) {
+    const Lighting turned = rotate(light.lighting, rotationFromDegrees(arguments.rotationDegrees));
+    return lowerRinging(turned, arguments.window,
+                        [&] { return deringForAsset(asset, arguments.asset, shown, turned); });
+}
+
 Image renderPicture(const RenderArguments& arguments, const Asset& asset, const LightSource& light,
                     StageLog& log) {
-    const Transport transport = arguments.transport.value_or(fullestTransport(asset.transfer));
+    const GivenBrdfs brdfs = resolveBrdfs(asset.scene, arguments.brdfs, arguments.asset);
+    const ShownTransport shown = chooseShown(asset, arguments.asset, arguments.transport, brdfs);
     const Camera camera = chooseCamera(arguments.view, asset.scene, arguments.asset);
     const Mat3d rotation = rotationFromDegrees(arguments.rotationDegrees);
 
-    const Stopwatch watch;
-    const Lighting turned = rotate(light.lighting, rotation);
-    const Lighting lighting = lowerRinging(turned, arguments.window, [&] {
-        return deringForAsset(asset, arguments.asset, transport, turned);
-    });
-    const std::vector<Vec3f> vertexRadiance =
-        relightVertices(asset, arguments.asset, transport, lighting);
+    Stopwatch watch;
+    AssetRelighter relighter(asset, arguments.asset, brdfs);
+    const std::vector<ExitRadiance> vertexRadiance =
+        relighter.relight(shown, prepareLighting(arguments, asset, light, shown), camera.eye);
     log.finishStage(
         "relight", watch.seconds(),
-        fmt::format("{}, {} bands", transportName(transport), light.lighting.bandCount));
+        fmt::format("{}, {} bands", shownTransportName(shown), light.lighting.bandCount));
 
     std::optional<Environment> background;
     if (arguments.background) background = makeBackground(light);
+    std::optional<MirrorEnvironment> mirrors;
+    if (hasMirrors(vertexRadiance)) {
+        watch = Stopwatch();
+        mirrors = makeMirrorEnvironment(makeMirroredLight(light), rotation);
+        log.finishStage("prefilter", watch.seconds(), "the light for mirror-like surfaces");
+    }
     const RayScene rays(asset.scene);
     return renderView(asset.scene, rays, vertexRadiance, camera,
                       {.width = arguments.view.size.width,
                        .height = arguments.view.size.height,
                        .background = background ? &*background : nullptr,
                        .worldFromBackground = rotation,
+                       .mirrors = mirrors ? &*mirrors : nullptr,
                        .progress = log.callback()});
 }
 
@@ -87,6 +103,7 @@ void runRender(const RenderArguments& arguments) {
 constexpr const char* kFooter =
     R"(Examples: prt render statue.prt.glb --light museum.exr --background -o statue.png
           prt render statue.prt.glb --light sun:30,45,0.53 --transport shadowed -o statue.exr
+          prt render spheres.prt.glb --light museum.exr --brdf merl:gold-paint.binary -o gold.png
 
 A .png is a picture for the screen: exposure, tone curve, sRGB. An .exr is linear radiance,
 untouched.
@@ -107,9 +124,9 @@ void addRenderCommand(CLI::App& app) {
     command->add_option("-o,--output", arguments->output, "the picture to write")
         ->type_name("OUT.png|exr")
         ->required();
-    addParsedOption(*command, "--transport", arguments->transport, parseTransport,
-                    "unshadowed|shadowed|interreflected",
-                    "how much of light transport to show [all there is]");
+    addParsedOption(*command, "--transport", arguments->transport, parseShownTransport,
+                    kShownTransportForms, "how much of light transport to show [all there is]");
+    addBrdfOption(*command, arguments->brdfs);
     addRotationOption(*command, arguments->rotationDegrees);
     addWindowOption(*command, arguments->window,
                     "lower ringing; auto: as little as leaves no negative reflection");

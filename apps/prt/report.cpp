@@ -35,6 +35,8 @@ void writePictures(const fs::path& folder, std::size_t index, const ReportLight&
                    const DisplayOptions& display) {
     const float scale = differenceScale(light);
     writeBoth(folder, pictureName(index, kRelit), light.relit, display);
+    if (light.relitInBands)
+        writeBoth(folder, pictureName(index, kRelitInBands), *light.relitInBands, display);
     writeBoth(folder, pictureName(index, kSameBands), light.sameBands.radiance, display);
     writeBoth(folder, pictureName(index, kItself), light.itself.radiance, display);
     writeMaps(folder, pictureName(index, kSameBands), light.sameBands.comparison, scale);
@@ -42,8 +44,8 @@ void writePictures(const fs::path& folder, std::size_t index, const ReportLight&
     for (const auto& [bandCount, judged] : light.byBandCount)
         writeBoth(folder, pictureName(index, bandPictureKind(bandCount)), judged.picture, display);
     for (const auto& [transport, judged] : light.byTransport)
-        writeBoth(folder, pictureName(index, std::string(transportName(transport))), judged.picture,
-                  display);
+        writeBoth(folder, pictureName(index, std::string(shownTransportName(transport))),
+                  judged.picture, display);
 }
 
 Json describeError(const NoisyError& error) {
@@ -71,19 +73,39 @@ Json describe(const JudgedReference& reference) {
     return json;
 }
 
-Json describe(const ReportLight& light) {
+/// A row for each material that is seen.
+Json describeMaterials(const Report& report, const ReportLight& light) {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < light.sameBands.byMaterial.size(); ++i) {
+        const MaterialError& inBands = light.sameBands.byMaterial[i];
+        const ReportMaterial& material = report.materials[inBands.material];
+        rows.push_back({{"material", material.name},
+                        {"metallic", material.surface.metallic},
+                        {"roughness", material.surface.roughness},
+                        {"textured", material.isTextured},
+                        {"replaced", material.isReplaced},
+                        {"pixels", inBands.pixelCount},
+                        {"against",
+                         {{"the_light_in_its_bands", describeError(inBands.error)},
+                          {"the_light_itself", describeError(light.itself.byMaterial[i].error)}}}});
+    }
+    return rows;
+}
+
+Json describe(const Report& report, const ReportLight& light) {
     Json json = {{"light", light.name},
                  {"bands", light.bandCount},
                  {"against",
                   {{"the_light_in_its_bands", describe(light.sameBands)},
                    {"the_light_itself", describe(light.itself)}}}};
+    if (!report.materials.empty()) json["by_material"] = describeMaterials(report, light);
     for (const auto& [bandCount, judged] : light.byBandCount) {
         Json row = {{"bands", bandCount}};
         row.update(describe(judged.comparison));
         json["by_band_count"].push_back(row);
     }
     for (const auto& [transport, judged] : light.byTransport) {
-        Json row = {{"transport", transportName(transport)}};
+        Json row = {{"transport", shownTransportName(transport)}};
         row.update(describe(judged.comparison));
         json["by_transport"].push_back(row);
     }
@@ -113,7 +135,7 @@ float differenceScale(const ReportLight& light) {
 std::string formatReportNumbers(const Report& report) {
     Json json = {{"asset", report.asset},
                  {"baked_with", report.provenance.command},
-                 {"transport", transportName(report.transport)},
+                 {"transport", shownTransportName(report.transport)},
                  {"vertices", report.vertexCount},
                  {"bytes_per_vertex", report.bytesPerVertex},
                  {"reference_samples", report.referenceSamples},
@@ -121,7 +143,7 @@ std::string formatReportNumbers(const Report& report) {
                   report.bounceCount == kUnlimitedBounces ? Json("inf") : Json(report.bounceCount)},
                  {"lights", Json::array()}};
     for (const ReportLight& light : report.lights)
-        json["lights"].push_back(describe(light));
+        json["lights"].push_back(describe(report, light));
     for (const auto& [stage, seconds] : report.seconds)
         json["seconds"][stage] = seconds;
     return json.dump(2) + "\n";

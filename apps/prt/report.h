@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/prt/shown_transport.h"
 #include "prt/asset/asset.h"
 #include "prt/render/comparison.h"
 
@@ -21,7 +23,8 @@ struct JudgedReference {
     Image radiance;
     PictureComparison comparison;
     NoisyError atVertices;
-    std::size_t vertexCount = 0;  ///< of those compared
+    std::size_t vertexCount = 0;              ///< of those compared
+    std::vector<MaterialError> byMaterial{};  ///< of surfaces as they are
 };
 
 /// All about one light.
@@ -29,10 +32,21 @@ struct ReportLight {
     std::string name{};
     int bandCount = 0;  ///< of the lighting that relights
     Image relit{};
-    JudgedReference sameBands{};                               ///< under the light in these bands
-    JudgedReference itself{};                                  ///< under the light as it is
+    std::optional<Image>
+        relitInBands{};           ///< where mirror-like surfaces show the light in its bands
+    JudgedReference sameBands{};  ///< under the light in these bands
+    JudgedReference itself{};     ///< under the light as it is
     std::vector<std::pair<int, JudgedPicture>> byBandCount{};  ///< against the light as it is
-    std::vector<std::pair<Transport, JudgedPicture>> byTransport{};  ///< against the same bands
+    std::vector<std::pair<ShownTransport, JudgedPicture>>
+        byTransport{};  ///< against the same bands
+};
+
+/// A material as its factors describe it.
+struct ReportMaterial {
+    std::string name{};
+    MetallicRoughness surface{};
+    bool isTextured = false;  ///< the factors are of a texture
+    bool isReplaced = false;  ///< by a BRDF given
 };
 
 /// What `prt compare` has found out.
@@ -44,9 +58,10 @@ struct Report {
     std::size_t triangleCount = 0;
     std::size_t assetBytes = 0;
     std::size_t bytesPerVertex = 0;  ///< of the layer shown
-    Transport transport = Transport::interreflected;
-    int referenceSamples = 0;  ///< paths a pixel
-    int bounceCount = 0;       ///< of the references; kUnlimitedBounces for all
+    ShownTransport transport = ShownTransport::interreflected;
+    std::vector<ReportMaterial> materials{};  ///< of the scene; of surfaces as they are
+    int referenceSamples = 0;                 ///< paths a pixel
+    int bounceCount = 0;                      ///< of the references; kUnlimitedBounces for all
     DisplayOptions display{};
     std::vector<ReportLight> lights{};
     std::vector<std::pair<std::string, double>> seconds{};
@@ -65,6 +80,7 @@ std::string formatReportNumbers(const Report& report);
 // Names of the pictures of a report, which its page shows.
 std::string pictureName(std::size_t lightIndex, const std::string& kind);  ///< without a suffix
 inline constexpr const char* kRelit = "relit";
+inline constexpr const char* kRelitInBands = "relit-in-bands";
 inline constexpr const char* kSameBands = "path-traced-in-bands";
 inline constexpr const char* kItself = "path-traced";
 std::string bandPictureKind(int bandCount);

@@ -75,6 +75,11 @@ std::string formatPictures(std::size_t index, const ReportLight& light) {
                          fmt::format("<b>Path-traced</b> under {}", nameReference(light, true)));
     html += formatFigure(pictureName(index, kItself),
                          fmt::format("<b>Path-traced</b> under {}", nameReference(light, false)));
+    if (light.relitInBands)
+        html += formatFigure(pictureName(index, kRelitInBands),
+                             fmt::format("<b>Relit</b>, mirrors showing {}, as it is held against "
+                                         "path tracing under that",
+                                         nameReference(light, true)));
     html += "</div>\n<h3>What differs</h3>\n<div class=\"pictures two\">\n";
     for (const bool inBands : {true, false}) {
         const std::string name = pictureName(index, inBands ? kSameBands : kItself);
@@ -134,11 +139,36 @@ std::string formatErrors(const ReportLight& light) {
         kErrorHeads, rows);
 }
 
+std::string formatMaterials(const Report& report, const ReportLight& light) {
+    if (report.materials.empty()) return {};
+    std::string rows;
+    for (std::size_t i = 0; i < light.sameBands.byMaterial.size(); ++i) {
+        const MaterialError& inBands = light.sameBands.byMaterial[i];
+        const MaterialError& itself = light.itself.byMaterial[i];
+        const ReportMaterial& material = report.materials[inBands.material];
+        const std::string surface =
+            material.isReplaced
+                ? "<td colspan=\"2\">another BRDF</td>"
+                : fmt::format("<td>{0:.2g}{2}</td><td>{1:.2g}{2}</td>", material.surface.roughness,
+                              material.surface.metallic, material.isTextured ? " × texture" : "");
+        rows +=
+            fmt::format("<tr><td>{}</td>{}<td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                        escapeHtml(material.name), surface, formatCount(inBands.pixelCount),
+                        formatRelativeExcess(inBands.error), formatRelativeExcess(itself.error));
+    }
+    return fmt::format(
+        "<h3>Material by material</h3>\n<p class=\"soft\">The relative RMSE over the pixels that "
+        "show one material and nothing else; the noise of the truth is taken out.</p>\n<div "
+        "class=\"scroll\"><table><tr><th></th><th>roughness</th><th>metallic</th><th>pixels</th>"
+        "<th>under {}</th><th>under {}</th></tr>\n{}</table></div>\n",
+        nameReference(light, true), nameReference(light, false), rows);
+}
+
 std::string formatTransports(std::size_t index, const ReportLight& light) {
     if (light.byTransport.empty()) return {};
     std::string pictures, rows;
     for (const auto& [transport, judged] : light.byTransport) {
-        const std::string name(transportName(transport));
+        const std::string name(shownTransportName(transport));
         pictures += formatFigure(
             pictureName(index, name),
             fmt::format("<b>{}</b>, {} off", name, formatRelativeExcess(judged.comparison.error)));
@@ -153,10 +183,11 @@ std::string formatTransports(std::size_t index, const ReportLight& light) {
         nameReference(light, true), pictures, kErrorHeads, rows);
 }
 
-std::string formatLight(std::size_t index, const ReportLight& light) {
+std::string formatLight(const Report& report, std::size_t index) {
+    const ReportLight& light = report.lights[index];
     return fmt::format("<h2>Light: <code>{}</code></h2>\n", escapeHtml(light.name)) +
            formatCards(light) + formatSlider(index, light) + formatPictures(index, light) +
-           formatErrors(light) + formatTransports(index, light);
+           formatErrors(light) + formatMaterials(report, light) + formatTransports(index, light);
 }
 
 /// Lights down, bands across, the truth at the end: how sharp a light each number of bands can
@@ -224,7 +255,7 @@ std::string formatFacts(const Report& report) {
                     formatCount(static_cast<std::uint64_t>(provenance.bounceCount), "bounce"))) +
            fact("shown",
                 fmt::format("{} transport; exposure {:+g} stops, tone curve {}",
-                            transportName(report.transport), report.display.exposureStops,
+                            shownTransportName(report.transport), report.display.exposureStops,
                             report.display.toneCurve == ToneCurve::aces ? "ACES" : "none")) +
            fact("truth",
                 fmt::format(
@@ -245,7 +276,7 @@ std::string formatFacts(const Report& report) {
 std::string formatReportPage(const Report& report) {
     std::string lights;
     for (std::size_t i = 0; i < report.lights.size(); ++i)
-        lights += formatLight(i, report.lights[i]);
+        lights += formatLight(report, i);
     const std::string asset = std::filesystem::path(report.asset).filename().string();
     return formatPage(
         asset + " against the truth",
