@@ -40,6 +40,7 @@ MatrixBlocks::MatrixBlocks(const StoredTable& matrices, int bandCount, int incid
     PRT_ASSERT(matrices.numbers.columnCount() == view_.matrixSize(),
                "a number for each channel, row and column");
     groups_ = cutRows(view_.rowCount);
+    view_.groups = groups_;
     bytes_ = allocateAlignedBytes(std::max<std::size_t>(byteCount(), 1));
     view_.data = bytes_.get();
     switch (view_.encoding) {

@@ -24,24 +24,34 @@ struct GroupResult {
     float* incident = nullptr;  ///< of the first matrix, from the first of the rows on
 };
 
-/// Writes the lanes from `lane` on of one of a group's vectors to the matrices that they are of.
-template <std::size_t kWidth>
-HWY_INLINE void storeRows(Vector sums, std::size_t vector, std::size_t lane, std::size_t channel,
-                          const GroupResult& result) {
-    const FloatTag d;
-    constexpr std::size_t kMatrices = kLanes / kWidth;
-    const auto rowsOf = [&](std::size_t l) {
-        return result.incident + (vector * kMatrices + l / kWidth) * result.matrixStride +
-               channel * result.channelStride + l % kWidth;
-    };
-    if constexpr (hn::MaxLanes(d) <= kWidth) {
-        hn::StoreU(sums, d, rowsOf(lane));
+/// Writes rows of 16/w matrices, w of each.
+#if HWY_TARGET == HWY_SCALAR
+template <std::size_t kWidth, class D>
+HWY_INLINE void storeRows(D d, hn::Vec<D> rows, std::size_t, float* to) {
+    hn::StoreU(rows, d, to);
+}
+#else
+template <std::size_t kWidth, class D>
+HWY_INLINE void storeRows(D d, hn::Vec<D> rows, std::size_t matrixStride, float* to) {
+    if constexpr (hn::MaxLanes(D()) <= kWidth) {
+        hn::StoreU(rows, d, to);
     } else {
-        HWY_ALIGN float lanes[kLanes];
-        hn::Store(sums, d, lanes);
-        for (std::size_t l = 0; l < hn::Lanes(d); l += kWidth)
-            std::copy_n(lanes + l, kWidth, rowsOf(lane + l));
+        const hn::Half<D> half;
+        storeRows<kWidth>(half, hn::LowerHalf(half, rows), matrixStride, to);
+        storeRows<kWidth>(half, hn::UpperHalf(half, rows), matrixStride,
+                          to + hn::Lanes(half) / kWidth * matrixStride);
     }
+}
+#endif
+
+/// Writes the lanes from `lane` on of a vector of each color, the `vector`th of a group.
+template <std::size_t kWidth>
+HWY_INLINE void storeSums(Vector sums, std::size_t vector, std::size_t lane, std::size_t color,
+                          const GroupResult& result) {
+    const std::size_t matrix = vector * (kLanes / kWidth) + lane / kWidth;
+    storeRows<kWidth>(FloatTag(), sums, result.matrixStride,
+                      result.incident + matrix * result.matrixStride +
+                          color * result.channelStride + lane % kWidth);
 }
 
 /// Zeros what a block's rows end with.
@@ -57,7 +67,7 @@ HWY_INLINE void clearPadding(const GroupResult& result) {
 
 /// Multiplies matrices that are the same for red, green and blue. @return  behind the last number
 template <std::size_t kWidth, class Stored>
-const Stored* multiplyGrey(const Stored* numbers, const float* light, std::size_t columnCount,
+HWY_NOINLINE const Stored* multiplyGrey(const Stored* numbers, const float* light, std::size_t columnCount,
                            const GroupResult& result) {
     const FloatTag d;
     constexpr std::size_t kTogether = vectorsTogether(kWidth);
@@ -84,7 +94,7 @@ const Stored* multiplyGrey(const Stored* numbers, const float* light, std::size_
             }
             for (std::size_t c = 0; c < 3; ++c)
                 for (std::size_t v = 0; v < kTogether; ++v)
-                    storeRows<kWidth>(sums[c][v], first + v, lane, c, result);
+                    storeSums<kWidth>(sums[c][v], first + v, lane, c, result);
         }
         numbers += columnCount * kTogether * kLanes;
     }
@@ -93,7 +103,7 @@ const Stored* multiplyGrey(const Stored* numbers, const float* light, std::size_
 
 /// The same of coloured ones.
 template <std::size_t kWidth, class Stored>
-const Stored* multiplyColored(const Stored* numbers, const float* light, std::size_t columnCount,
+HWY_NOINLINE const Stored* multiplyColored(const Stored* numbers, const float* light, std::size_t columnCount,
                               const GroupResult& result) {
     const FloatTag d;
     constexpr std::size_t kTogether = vectorsTogether(kWidth);
@@ -113,7 +123,7 @@ const Stored* multiplyColored(const Stored* numbers, const float* light, std::si
                     column += kTogether * kLanes;
                 }
                 for (std::size_t v = 0; v < kTogether; ++v)
-                    storeRows<kWidth>(sums[v], first + v, lane, c, result);
+                    storeSums<kWidth>(sums[v], first + v, lane, c, result);
             }
             numbers += columnCount * kTogether * kLanes;
         }
@@ -132,12 +142,11 @@ const Stored* multiplyGroup(const Stored* numbers, const float* light, const Mat
 template <class Stored>
 void multiplyStored(const MatrixView& matrices, const float* light, std::size_t blockCount,
                     GroupResult result) {
-    const std::vector<RowGroup> groups = cutRows(matrices.rowCount);
     const auto* numbers = reinterpret_cast<const Stored*>(matrices.data);
     for (std::size_t block = 0; block < blockCount; ++block) {
         clearPadding(result);
         const float* groupLight = light;
-        for (const RowGroup& group : groups) {
+        for (const RowGroup& group : matrices.groups) {
             GroupResult rows = result;
             rows.incident += group.firstRow;
             switch (group.width) {

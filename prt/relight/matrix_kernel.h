@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "prt/transfer/stored_table.h"
@@ -36,7 +37,8 @@ struct MatrixView {
     TransferEncoding encoding = TransferEncoding::float32;
     std::size_t channelCount = 1;
     std::size_t rowCount = 0;         ///< n_in²
-    std::size_t columnCount = 0;      ///< n²
+    std::size_t columnCount = 0;        ///< n²
+    std::span<const RowGroup> groups{};  ///< of its rows
     const std::byte* data = nullptr;  ///< aligned to 64 bytes
 
     std::size_t matrixSize() const { return channelCount * rowCount * columnCount; }
