@@ -210,18 +210,21 @@ HWY_INLINE Vector sumParts(Vector a, Vector b, Vector c, Vector e) {
                    hn::BitCast(d, hn::InterleaveUpper(pairs, abPairs, cePairs)));
 }
 
+/// And the parts.
+template <class D>
+HWY_INLINE void addParts(D d, hn::Vec<D> parts, float* totals) {
+    if constexpr (hn::MaxLanes(D()) <= 4) {
+        hn::StoreU(parts, d, totals);
+    } else {
+        const hn::Half<D> half;
+        addParts(half, hn::Add(hn::LowerHalf(half, parts), hn::UpperHalf(half, parts)), totals);
+    }
+}
+
 HWY_INLINE void sumLanes(const LobeSums& sums, float* totals) {
     const FloatTag d;
-    HWY_ALIGN float parts[2][kBlock];
-    hn::Store(sumParts(sums[0], sums[1], sums[2], sums[3]), d, parts[0]);
-    hn::Store(sumParts(sums[4], sums[5], sums[6], sums[7]), d, parts[1]);
-    for (std::size_t half = 0; half < 2; ++half)
-        for (std::size_t k = 0; k < 4; ++k) {
-            float total = parts[half][k];
-            for (std::size_t lane = 4; lane < hn::Lanes(d); lane += 4)
-                total += parts[half][lane + k];
-            totals[4 * half + k] = total;
-        }
+    addParts(d, sumParts(sums[0], sums[1], sums[2], sums[3]), totals);
+    addParts(d, sumParts(sums[4], sums[5], sums[6], sums[7]), totals + 4);
 }
 #endif
 
