@@ -1,6 +1,7 @@
 #include "apps/prt/relit_asset.h"
 
 #include <algorithm>
+#include <memory>
 #include <span>
 
 #include <fmt/format.h>
@@ -121,8 +122,7 @@ const GlossyRelighter& AssetRelighter::glossyRelighter(ShownTransport shown) {
     if (!isAvailable(asset_.transfer, shown)) throwLacking(shown, path_);
     const int incidentBandCount = findIncidentBandCount(asset_.transfer, shown);
     if (!views_ || views_->bandCount() != incidentBandCount)
-        views_ = std::make_shared<const GltfViewTable>(
-            GltfViewTableOptions{.bandCount = incidentBandCount});
+        views_.emplace(GltfViewTableOptions{.bandCount = incidentBandCount});
     const GlossyRelightOptions options{.leastRoughness = leastRoughnessHeld(incidentBandCount),
                                        .materialTables = makeTables(brdfs_, incidentBandCount)};
     std::optional<CompressedTransfer> ofNormals;
@@ -133,7 +133,7 @@ const GlossyRelighter& AssetRelighter::glossyRelighter(ShownTransport shown) {
     const Transport layer =
         shown == ShownTransport::glossy ? Transport::glossy : Transport::glossyShadowed;
     lastGlossy_.emplace(
-        shown, GlossyRelighter(transfer, layer, describeReceivers(asset_.scene, transfer), views_,
+        shown, GlossyRelighter(transfer, layer, describeReceivers(asset_.scene, transfer), *views_,
                                options));
     return lastGlossy_->second;
 }

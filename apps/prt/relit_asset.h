@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -61,7 +60,7 @@ class AssetRelighter {
     std::string path_;
     GivenBrdfs brdfs_;
     int threadCount_;
-    std::shared_ptr<const GltfViewTable> views_;
+    std::optional<GltfViewTable> views_;
     std::optional<std::pair<ShownTransport, GlossyRelighter>> lastGlossy_;
 };
 
