@@ -60,6 +60,29 @@ TEST(BrdfViewTable, IsWhatTheTableOfGltfMaterialsSaysOfOneOfThem) {
     }
 }
 
+TEST(BrdfViewTable, OfAMeasuredBrdfThatIsNotMirrorSymmetricIsTheMeanOfBothImages) {
+    // The mirror image of φ_d is 180° − φ_d. Seen along the normal all is at 0.
+    const std::vector<float> mean(3 * MeasuredBrdf::kCellCount, 0.5f);
+    std::vector<float> skewed = mean;
+    for (std::size_t i = 0; i < skewed.size(); ++i) {
+        const std::size_t azimuth = i % MeasuredBrdf::kAzimuthCount;
+        if (azimuth >= 10 && azimuth < 80) skewed[i] = 0.9f;
+        if (azimuth >= 100 && azimuth < 170) skewed[i] = 0.1f;
+    }
+    const auto respond = [](std::vector<float> values) {
+        const Brdf brdf{.lobes = {MeasuredLobe{std::make_shared<MeasuredBrdf>(std::move(values))}}};
+        const BrdfViewTable table(brdf, {.bandCount = 3, .viewCount = 4});
+        std::vector<float> response(27);
+        table.addResponse(Vec3f(0.48f, 0.36f, 0.8f), response);
+        return response;
+    };
+    constexpr float kCells = 1e-3f;  // whose middles are no mirror images where they are cut off
+    const std::vector<float> ofSkewed = respond(skewed), ofMean = respond(mean);
+    for (std::size_t k = 0; k < 27; ++k)
+        EXPECT_NEAR(ofSkewed[k], ofMean[k], kCells) << k;
+    EXPECT_GT(ofMean[2], 0.5f);
+}
+
 TEST(BrdfViewTable, HasRowsOfTheViewsItWasMadeFor) {
     const Brdf brdf = test::makeGgx(0.6);
     const BrdfViewTable table(
