@@ -19,6 +19,7 @@ struct MethodArguments {
     std::optional<std::size_t> clusterCount{};
     std::optional<std::size_t> componentCount{};
     std::optional<TransferEncoding> weights{};
+    std::optional<TransferEncoding> bases{};
     std::optional<double> bytesPerVertex{};
     std::optional<double> maxError{};
     std::string light{};  ///< LIGHT; empty: none

@@ -120,6 +120,19 @@ TEST_F(CliCompress, EveryMethodOfClustersMakesAnAssetThatIsRelit) {
     }
 }
 
+TEST_F(CliCompress, BasesOfEightBitsTakeHalfTheBytes) {
+    const auto compress = [&](const std::string& bases) {
+        run({"compress", "float.prt.glb", "-o", "small.prt.glb", "--clusters", "4", "--components",
+             "3", "--bases", bases});
+        return info("small.prt.glb");
+    };
+    const Json words = compress("u16"), bytes = compress("u8");
+    EXPECT_EQ(bytes.at("layers")[0].at("bases_encoding"), "unorm8");
+    EXPECT_EQ(2 * int(bytes.at("layers")[0].at("shared_bytes")),
+              int(words.at("layers")[0].at("shared_bytes")));
+    EXPECT_NE(bytes.at("provenance").dump().find("--components 3 --bases u8"), std::string::npos);
+}
+
 TEST_F(CliCompress, ABakeByClustersWritesWhatCompressingItsFloatsDoes) {
     const std::vector<std::string> method = {"--method",     "cpca", "--clusters", "20",
                                              "--components", "3",    "--weigh-by", "sun:40,50,20"};
@@ -173,6 +186,7 @@ TEST_F(CliCompress, OptionsThatContradictEachOtherAreWrongUsage) {
         {"--method", "pca", "--clusters", "4"},
         {"--method", "vq", "--components", "3"},
         {"--method", "vq", "--weights", "u8"},
+        {"--method", "u8", "--bases", "u8"},
         {"--method", "u16", "--max-error", "0.1"},
         {"--method", "vq", "--bytes-per-vertex", "8"},
         {"--bytes-per-vertex", "16", "--max-error", "0.1"},
