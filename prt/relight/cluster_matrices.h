@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "prt/light/lighting.h"
@@ -24,6 +25,9 @@ class ClusterMatrices {
 
     /// Of what is read for all receivers.
     std::size_t byteCount() const;
+
+    /// Nothing: weights are few, and read in sequence.
+    std::span<const std::byte> block(std::size_t) const { return {}; }
 
     /// A light as multiply() takes it: R of all clusters.
     ///

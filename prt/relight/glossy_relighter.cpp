@@ -30,6 +30,9 @@ class StoredMatrices {
     std::size_t byteCount() const {
         return std::visit([](const auto& matrices) { return matrices.byteCount(); }, matrices_);
     }
+    std::span<const std::byte> block(std::size_t begin) const {
+        return std::visit([&](const auto& matrices) { return matrices.block(begin); }, matrices_);
+    }
     AlignedBytes fold(const Lighting& lighting) const {
         return std::visit([&](const auto& matrices) { return matrices.fold(lighting); }, matrices_);
     }
@@ -179,7 +182,7 @@ void GlossyRelighter::reflect(const Vec3f& eye, std::size_t begin, std::span<con
     checkPart(begin, radiance.size());
     PRT_ASSERT(incident.size() == radiance.size() * incidentSize(),
                "incident radiance of the same receivers");
-    state_->lobes.reflect(eye, begin, incident.data(), radiance);
+    state_->lobes.reflect(eye, begin, incident.data(), {}, radiance);
 }
 
 void GlossyRelighter::relight(const Lighting& lighting, const Vec3f& eye, std::size_t begin,
@@ -191,7 +194,8 @@ void GlossyRelighter::relight(const Lighting& lighting, const Vec3f& eye, std::s
     for (std::size_t done = 0; done < count; done += kBlockSize) {
         const auto block = radiance.subspan(done, std::min(kBlockSize, count - done));
         state_->receiveBlocks(lights, begin + done, 1, incident);
-        state_->lobes.reflect(eye, begin + done, incident, block);
+        const auto ahead = state_->matrices.block(begin + done + kBlockSize);
+        state_->lobes.reflect(eye, begin + done, incident, ahead, block);
     }
 }
 

@@ -81,9 +81,17 @@ void MatrixBlocks::pack(const CoefficientTable& numbers) {
     }
 }
 
+std::size_t MatrixBlocks::blockBytes() const {
+    return kMatrixBlockSize * view_.matrixSize() * bytesPerCoefficient(view_.encoding);
+}
+
 std::size_t MatrixBlocks::byteCount() const {
-    const std::size_t blockCount = (matrixCount_ + kMatrixBlockSize - 1) / kMatrixBlockSize;
-    return blockCount * kMatrixBlockSize * view_.matrixSize() * bytesPerCoefficient(view_.encoding);
+    return (matrixCount_ + kMatrixBlockSize - 1) / kMatrixBlockSize * blockBytes();
+}
+
+std::span<const std::byte> MatrixBlocks::block(std::size_t begin) const {
+    if (begin >= matrixCount_) return {};
+    return {bytes_.get() + begin / kMatrixBlockSize * blockBytes(), blockBytes()};
 }
 
 AlignedBytes MatrixBlocks::fold(const Lighting& lighting) const {
@@ -121,7 +129,7 @@ void MatrixBlocks::multiply(const AlignedBytes& light, std::size_t begin, std::s
     PRT_ASSERT(begin + blockCount * kMatrixBlockSize < matrixCount_ + kMatrixBlockSize,
                "what is asked for is there");
     MatrixView blocks = view_;
-    blocks.data += begin * view_.matrixSize() * bytesPerCoefficient(view_.encoding);
+    blocks.data += begin / kMatrixBlockSize * blockBytes();
     multiplyMatrices(blocks, reinterpret_cast<const float*>(light.get()), blockCount, stride,
                      incident);
 }

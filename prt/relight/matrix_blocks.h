@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "prt/light/lighting.h"
@@ -28,6 +29,9 @@ class MatrixBlocks {
     /// Of what is read for all products; the last block counts whole.
     std::size_t byteCount() const;
 
+    /// What is read for the block that begins there, nothing behind the last.
+    std::span<const std::byte> block(std::size_t begin) const;
+
     /// A light as multiply() takes it, s_ij L_j and Σ_j b_ij L_j.
     ///
     /// @param lighting  with at most as many bands as there are columns for
@@ -43,6 +47,7 @@ class MatrixBlocks {
                   std::size_t stride, float* incident) const;
 
   private:
+    std::size_t blockBytes() const;
     template <class Stored>
     void pack(const CoefficientTable& numbers);
 

@@ -67,8 +67,8 @@ HWY_INLINE void clearPadding(const GroupResult& result) {
 
 /// Multiplies matrices that are the same for red, green and blue. @return  behind the last number
 template <std::size_t kWidth, class Stored>
-HWY_NOINLINE const Stored* multiplyGrey(const Stored* numbers, const float* light, std::size_t columnCount,
-                           const GroupResult& result) {
+HWY_NOINLINE const Stored* multiplyGrey(const Stored* numbers, const float* light,
+                                        std::size_t columnCount, const GroupResult& result) {
     const FloatTag d;
     constexpr std::size_t kTogether = vectorsTogether(kWidth);
     for (std::size_t first = 0; first < kWidth; first += kTogether) {
@@ -103,8 +103,8 @@ HWY_NOINLINE const Stored* multiplyGrey(const Stored* numbers, const float* ligh
 
 /// The same of coloured ones.
 template <std::size_t kWidth, class Stored>
-HWY_NOINLINE const Stored* multiplyColored(const Stored* numbers, const float* light, std::size_t columnCount,
-                              const GroupResult& result) {
+HWY_NOINLINE const Stored* multiplyColored(const Stored* numbers, const float* light,
+                                           std::size_t columnCount, const GroupResult& result) {
     const FloatTag d;
     constexpr std::size_t kTogether = vectorsTogether(kWidth);
     for (std::size_t first = 0; first < kWidth; first += kTogether) {

@@ -36,10 +36,10 @@ std::vector<RowGroup> cutRows(std::size_t rowCount);
 struct MatrixView {
     TransferEncoding encoding = TransferEncoding::float32;
     std::size_t channelCount = 1;
-    std::size_t rowCount = 0;         ///< n_in²
-    std::size_t columnCount = 0;        ///< n²
+    std::size_t rowCount = 0;            ///< n_in²
+    std::size_t columnCount = 0;         ///< n²
     std::span<const RowGroup> groups{};  ///< of its rows
-    const std::byte* data = nullptr;  ///< aligned to 64 bytes
+    const std::byte* data = nullptr;     ///< aligned to 64 bytes
 
     std::size_t matrixSize() const { return channelCount * rowCount * columnCount; }
 };

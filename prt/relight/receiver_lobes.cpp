@@ -157,13 +157,14 @@ void ReceiverLobes::splitLobes(std::span<const ReceiverSurface> receivers, const
 }
 
 void ReceiverLobes::reflect(const Vec3f& eye, std::size_t begin, const float* incident,
+                            std::span<const std::byte> ahead,
                             std::span<ExitRadiance> radiance) const {
     PRT_ASSERT(begin % kReflectBlockSize == 0 && begin + radiance.size() <= lobes_.size(),
                "receivers that are there, from a block's first on");
     ReflectView view = view_;
     view.places += begin * 6;
     view.lobes = lobes_.data() + begin;
-    reflectIncident(view, eye, radiance.size(), incident, radiance.data());
+    reflectIncident(view, eye, incident, ahead, radiance);
 }
 
 }  // namespace prt

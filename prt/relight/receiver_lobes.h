@@ -40,9 +40,10 @@ class ReceiverLobes {
     /// @param begin     a multiple of kReflectBlockSize
     /// @param incident  of the receivers from begin on, [receiver][channel][padded row], and again
     ///                  of what has bounced where the split says so
+    /// @param ahead     memory that will be read next
     /// @param radiance  of the receivers from begin on, written
     void reflect(const Vec3f& eye, std::size_t begin, const float* incident,
-                 std::span<ExitRadiance> radiance) const;
+                 std::span<const std::byte> ahead, std::span<ExitRadiance> radiance) const;
 
   private:
     void placeReceivers(std::span<const ReceiverSurface> receivers);

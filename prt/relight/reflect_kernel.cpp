@@ -248,12 +248,23 @@ HWY_INLINE ExitRadiance reflectReceiver(const ReflectView& receivers, const View
             totals[7] > 0.0f ? std::clamp(totals[6] / totals[7], 0.0f, 1.0f) : 0.0f};
 }
 
-void reflect(const ReflectView& receivers, const Vec3f& eye, std::size_t receiverCount,
-             const float* incident, ExitRadiance* radiance) {
+/// Asks for memory in the core's larger cache, so that it is there when what is being read stays.
+HWY_INLINE void askFor(std::span<const std::byte> memory) {
+    constexpr std::size_t kLineBytes = 64;
+    for (std::size_t at = 0; at < memory.size(); at += kLineBytes)
+        __builtin_prefetch(memory.data() + at, 0, 2);
+}
+
+void reflect(const ReflectView& receivers, const Vec3f& eye, const float* incident,
+             std::span<const std::byte> ahead, std::span<ExitRadiance> radiance) {
+    // More than that is not there any sooner.
+    constexpr std::size_t kMostAhead = std::size_t{20} << 10;
+    const std::size_t askedBytes = std::min(kMostAhead, ahead.size()) / kBlock;
     BlockViews views;
-    for (std::size_t r = 0; r < receiverCount; ++r) {
+    for (std::size_t r = 0; r < radiance.size(); ++r) {
         const std::size_t inBlock = r % kBlock;
         if (inBlock == 0) placeViews(receivers.places + 6 * r, eye, receivers.bandCount, views);
+        askFor(ahead.subspan(inBlock * askedBytes, askedBytes));
         const ReceiverLobe& lobe = receivers.lobes[r];
         const float position = views.positions[inBlock] * static_cast<float>(lobe.viewCount - 1);
         const auto firstView = std::min(static_cast<std::int32_t>(position),
@@ -274,9 +285,9 @@ namespace prt {
 
 HWY_EXPORT(reflect);
 
-void reflectIncident(const ReflectView& receivers, const Vec3f& eye, std::size_t receiverCount,
-                     const float* incident, ExitRadiance* radiance) {
-    HWY_DYNAMIC_DISPATCH(reflect)(receivers, eye, receiverCount, incident, radiance);
+void reflectIncident(const ReflectView& receivers, const Vec3f& eye, const float* incident,
+                     std::span<const std::byte> ahead, std::span<ExitRadiance> radiance) {
+    HWY_DYNAMIC_DISPATCH(reflect)(receivers, eye, incident, ahead, radiance);
 }
 
 }  // namespace prt

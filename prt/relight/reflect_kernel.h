@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "prt/math/vector.h"
 #include "prt/relight/exit_radiance.h"
@@ -52,7 +53,8 @@ constexpr std::int32_t azimuthIndex(int bandCount, int m) {
 /// Writes what receivers from the first on, the first of a block, send to the eye.
 ///
 /// @param incident  [receiver][channel][padded row], and again of what has bounced
-void reflectIncident(const ReflectView& receivers, const Vec3f& eye, std::size_t receiverCount,
-                     const float* incident, ExitRadiance* radiance);
+/// @param ahead     memory that will be read next, asked for between one receiver and another
+void reflectIncident(const ReflectView& receivers, const Vec3f& eye, const float* incident,
+                     std::span<const std::byte> ahead, std::span<ExitRadiance> radiance);
 
 }  // namespace prt
