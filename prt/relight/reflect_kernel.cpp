@@ -258,7 +258,7 @@ HWY_INLINE void askFor(std::span<const std::byte> memory) {
 void reflect(const ReflectView& receivers, const Vec3f& eye, const float* incident,
              std::span<const std::byte> ahead, std::span<ExitRadiance> radiance) {
     // More than that is not there any sooner.
-    constexpr std::size_t kMostAhead = std::size_t{20} << 10;
+    constexpr std::size_t kMostAhead = std::size_t{12} << 10;
     const std::size_t askedBytes = std::min(kMostAhead, ahead.size()) / kBlock;
     BlockViews views;
     for (std::size_t r = 0; r < radiance.size(); ++r) {
