@@ -143,9 +143,11 @@ void ReceiverLobes::splitLobes(std::span<const ReceiverSurface> receivers, const
     constexpr float kWhite = 3.5449077018110321f;  // sqrt(4 pi)
     arriving_ = allocateFloats(chosen.size() * view_.rowSize);
     const auto rowCount = static_cast<std::size_t>(shCoefficientCount(view_.bandCount));
+    if (chosen.empty()) return;
+    const LayerDecoder visibility(*split.visibility);
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         ReceiverLobe& lobe = lobes_[chosen[k]];
-        const std::vector<float> matrix = LayerDecoder(*split.visibility).expand(chosen[k], 1);
+        const std::vector<float> matrix = visibility.expand(chosen[k], 1);
         const std::size_t columnCount =
             matrix.size() / rowCount / static_cast<std::size_t>(split.visibility->channelCount);
         float* const arriving = floatsOf(arriving_) + k * view_.rowSize;

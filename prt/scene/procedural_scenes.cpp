@@ -305,7 +305,7 @@ Scene makeMaterialsScene() {
     const Paint lacquer{"lacquer ", Vec3f(0.08f, 0.2f, 0.5f)};
 
     Scene scene;
-    for (const auto& [row, z] : {std::pair(copper, -0.5f), std::pair(lacquer, 0.5f)}) {
+    for (const auto& [row, z] : {std::pair(copper, -0.6f), std::pair(lacquer, 0.6f)}) {
         float x = -2.0f;
         for (const std::string& roughness : roughnesses) {
             Paint paint = row;
@@ -317,7 +317,7 @@ Scene makeMaterialsScene() {
         }
     }
     addPart(scene, "floor", kWhite, makeFloor(3.0f, 0.0f, kFloorCells));
-    addCamera(scene, Vec3f(0.0f, 3.0f, 6.0f), Vec3f(0.0f, 0.25f, 0.0f), 36.0f);
+    addCamera(scene, Vec3f(0.0f, 3.6f, 5.0f), Vec3f(0.0f, 0.2f, 0.05f), 30.0f);
     return scene;
 }
 
