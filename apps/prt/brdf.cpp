@@ -16,8 +16,11 @@
 #include "apps/prt/lobe_picture.h"
 #include "apps/prt/picture.h"
 #include "apps/prt/text.h"
+#include "prt/base/file.h"
 #include "prt/basis/sh.h"
 #include "prt/brdf/band_limit.h"
+#include "prt/brdf/tabulate_brdf.h"
+#include "prt/io/merl.h"
 
 namespace prt::cli {
 namespace {
@@ -30,6 +33,7 @@ struct BrdfCommandArguments {
     std::optional<int> viewBandCount;
     bool json = false;
     std::string picture;
+    std::string merl;
 };
 
 /// What is told of a BRDF.
@@ -118,12 +122,21 @@ void printJson(const BrdfCommandArguments& arguments, const BrdfSource& source,
 
 void runBrdf(const BrdfCommandArguments& arguments) {
     if (!arguments.picture.empty()) requireSuffix(arguments.picture, kPictureSuffixes);
+    if (!arguments.merl.empty()) {
+        requireSuffix(arguments.merl, ".binary");
+        checkWritable(arguments.merl);
+    }
     const BrdfSource source = loadBrdf(arguments.spec);
     const BrdfSummary summary = summarise(source, arguments.bandCount);
     if (!arguments.picture.empty()) {
         const Image picture = drawLobe(source.brdf, arguments.bandCount);
         const DeferInterrupts whileWriting;
         writePicture(arguments.picture, picture, {.toneCurve = ToneCurve::none});
+    }
+    if (!arguments.merl.empty()) {
+        const MeasuredBrdf table = tabulateBrdf(source.brdf);
+        const DeferInterrupts whileWriting;
+        writeMerlBrdf(arguments.merl, table);
     }
     arguments.json ? printJson(arguments, source, summary)
                    : printSummary(arguments, source, summary);
@@ -135,6 +148,7 @@ what n bands miss: of a lobe above the horizon, with bands for the light, as rel
 of the whole matrix of --json, with bands for the light and for the eye.
 Examples: prt brdf ggx:1,0.78,0.34,0.4
           prt brdf merl:gold-paint.binary --bands 8 --picture gold-paint.png
+          prt brdf gltf:0.8,0.2,0.1,0,0.4 --merl plastic.binary
           prt brdf phong:0.5,0.5,0.5,20 --bands 5 --view-bands 3 --json
 )";
 
@@ -159,6 +173,11 @@ void addBrdfCommand(CLI::App& app) {
         ->add_option("--picture", arguments->picture,
                      "also draw the lobe of an eye at 45 degrees, as it is and in bands")
         ->type_name("OUT.png|exr");
+    command
+        ->add_option("--merl", arguments->merl,
+                     "also write it as a file of the MERL database, 35 MB, as measured at the "
+                     "middles of its cells")
+        ->type_name("OUT.binary");
     command->callback([arguments] { runBrdf(*arguments); });
 }
 

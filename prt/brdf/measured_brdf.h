@@ -24,6 +24,8 @@ class MeasuredBrdf {
     ///                and not negative
     explicit MeasuredBrdf(std::vector<float> values);
 
+    const std::vector<float>& values() const { return values_; }
+
     /// f_r(ω_i, ω_o); both unit, local frame, above the horizon.
     Vec3d evaluate(const Vec3d& incident, const Vec3d& view) const;
 

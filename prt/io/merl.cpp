@@ -27,10 +27,11 @@ constexpr std::array<double, 3> kChannelScales = {1.0 / 1500.0, 1.15 / 1500.0, 1
                 name);
 }
 
+constexpr std::array<std::size_t, 3> kSizes = {MeasuredBrdf::kHalfAngleCount,
+                                               MeasuredBrdf::kDifferenceAngleCount,
+                                               MeasuredBrdf::kAzimuthCount};
+
 void requireSizes(ByteReader& reader, const std::string& name) {
-    constexpr std::array<std::size_t, 3> kSizes = {MeasuredBrdf::kHalfAngleCount,
-                                                   MeasuredBrdf::kDifferenceAngleCount,
-                                                   MeasuredBrdf::kAzimuthCount};
     std::array<std::int32_t, 3> sizes{};
     for (std::int32_t& size : sizes)
         size = reader.readNumber<std::int32_t>();
@@ -76,6 +77,17 @@ LoadedMerlBrdf readMerlBrdf(const std::filesystem::path& path) {
     const std::uintmax_t size = std::filesystem::file_size(path, unknown);
     if (!unknown && size > kFileBytes) rejectSize(size, path.string());
     return parseMerlBrdf(readFile(path, kFileBytes), path.string());
+}
+
+void writeMerlBrdf(const std::filesystem::path& path, const MeasuredBrdf& brdf) {
+    ByteWriter file(kFileBytes);
+    for (const std::size_t size : kSizes)
+        file.writeNumber(static_cast<std::int32_t>(size));
+    const std::vector<float>& values = brdf.values();
+    for (std::size_t i = 0; i < values.size(); ++i)
+        file.writeNumber(static_cast<double>(values[i]) /
+                         kChannelScales[i / MeasuredBrdf::kCellCount]);
+    writeFileAtomically(path, file.bytes());
 }
 
 }  // namespace prt

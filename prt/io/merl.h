@@ -30,4 +30,9 @@ LoadedMerlBrdf readMerlBrdf(const std::filesystem::path& path);
 /// @param name  how to call it in an error
 LoadedMerlBrdf parseMerlBrdf(std::span<const std::byte> file, const std::string& name);
 
+/// Writes such a file, from which reading makes the same table.
+///
+/// @throws Error  writeFailed
+void writeMerlBrdf(const std::filesystem::path& path, const MeasuredBrdf& brdf);
+
 }  // namespace prt

@@ -15,8 +15,9 @@
 
 #include "prt/basis/sh.h"
 #include "prt/basis/zonal.h"
-#include "prt/brdf/measured_brdf.h"
+#include "prt/brdf/tabulate_brdf.h"
 #include "prt/io/image_io.h"
+#include "prt/io/merl.h"
 #include "tests/cli/run_prt.h"
 
 namespace prt::test {
@@ -110,6 +111,22 @@ TEST(CliBrdf, PrintsATable) {
         EXPECT_NE(table.find(words), std::string::npos) << words << " in " << table;
     const std::string measured = runPrt(folder, {"brdf", "gltf:1,0.5,0.25,1,0.6"}).output;
     EXPECT_EQ(table.substr(0, table.find("\nin ")), measured) << "a metal is GGX";
+}
+
+TEST(CliBrdf, WritesAFileOfTheMerlDatabase) {
+    const TemporaryFolder folder;
+    const std::string spec = "phong:0.8,0.5,0.2,3";
+    EXPECT_EQ(runPrt(folder, {"brdf", spec, "--merl", "made.binary"}).exitCode, 0);
+    const Brdf phong{.lobes = {PhongLobe{.albedo = Vec3d(0.8, 0.5, 0.2), .exponent = 3.0}}};
+    EXPECT_TRUE(readMerlBrdf(folder.path() / "made.binary").brdf->values() ==
+                tabulateBrdf(phong).values());
+
+    const CommandResult refused = runPrt(folder, {"brdf", spec, "--merl", "made.exr"});
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_EQ(refused.errors.find("prt: error: made.exr: does not end in .binary"), 0u)
+        << refused.errors;
+    EXPECT_EQ(std::count(refused.errors.begin(), refused.errors.end(), '\n'), 1);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "made.exr"));
 }
 
 TEST(CliBrdf, DrawsTheLobeAndWhatBandsMakeOfIt) {

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "prt/base/file.h"
 #include "tests/brdf/brdf_samples.h"
 #include "tests/io/test_files.h"
 
@@ -82,6 +84,26 @@ TEST(Merl, AGgxTableIsGgxWithinItsCells) {
         for (int channel = 0; channel < 3; ++channel)
             ASSERT_NEAR(actual[channel], expected[channel], kCellVariation * expected[channel]);
     }
+}
+
+/// Bytes by the tests' own writer; what is read back is the table to the bit.
+TEST(Merl, WrittenFilesAreTheDatabasesAndReadBackAsTheTable) {
+    std::vector<float> table(3 * MeasuredBrdf::kCellCount);
+    for (std::size_t i = 0; i < table.size(); ++i)
+        table[i] = static_cast<float>(i % 9973) * 0.37f;
+    table.back() = std::numeric_limits<float>::max();
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "made.binary";
+    writeMerlBrdf(path, MeasuredBrdf(table));
+    const std::string expected = makeMerlFile(table);
+    EXPECT_TRUE(std::ranges::equal(readFile(path, expected.size()), asBytes(expected)));
+    const LoadedMerlBrdf loaded = readMerlBrdf(path);
+    EXPECT_TRUE(loaded.brdf->values() == table);
+    EXPECT_EQ(loaded.negativeCount, 0u);
+    EXPECT_EQ(catchError([&] {
+                  writeMerlBrdf(folder.path() / "none" / "made.binary", *loaded.brdf);
+              }).code(),
+              ErrorCode::writeFailed);
 }
 
 TEST(Merl, NegativeValuesMarkWhatWasNotMeasured) {
