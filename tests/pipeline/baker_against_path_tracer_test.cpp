@@ -16,25 +16,11 @@
 namespace prt {
 namespace {
 
-using test::assembleScene;
-using test::makeQuad;
+using test::makeFurnishedRoom;
 
 constexpr int kBandCount = 3;
 constexpr std::size_t kRowSize = 3 * shCoefficientCount(kBandCount);
 constexpr int kPathCount = 4096;
-
-/// A room without a front, a ball, and a double-sided sheet that hangs in it.
-Scene makeFurnishedRoom() {
-    return assembleScene(
-        {{makeQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}), {0.8f, 0.8f, 0.8f}},
-         {makeQuad({-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}), {0.1f, 0.7f, 0.2f}},
-         {makeQuad({-1, -1, 0}, {-1, 1, 0}, {-1, 1, 2}, {-1, -1, 2}), {0.7f, 0.1f, 0.1f}},
-         {makeQuad({0.2f, -0.3f, 1.2f}, {0.9f, -0.3f, 1.3f}, {0.9f, 0.5f, 1.4f},
-                   {0.2f, 0.5f, 1.3f}),
-          {0.6f, 0.5f, 0.9f},
-          true},
-         {makeSphere({0.1f, 0.2f, 0.5f}, 0.45f, 12), {0.9f, 0.9f, 0.5f}}});
-}
 
 /// Mean over several bakes, each from other random numbers, and the variance of that mean.
 struct BakedTransfer {

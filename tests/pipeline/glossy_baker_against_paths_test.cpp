@@ -26,9 +26,6 @@
 namespace prt {
 namespace {
 
-using test::assembleScene;
-using test::makeQuad;
-
 constexpr int kIncidentBandCount = 3;
 constexpr int kBandCount = 3;
 constexpr std::size_t kRowCount = shCoefficientCount(kIncidentBandCount);
@@ -36,17 +33,9 @@ constexpr std::size_t kColumnCount = shCoefficientCount(kBandCount);
 constexpr std::size_t kPathCount = 8192;
 constexpr int kBakeCount = 16;
 
-/// A room without a front, a metal ball, and a double-sided sheet that hangs in it.
+/// A floor and a wall with lobes, a metal sheet and a metal ball.
 Scene makeGlossyRoom() {
-    Scene scene = assembleScene(
-        {{makeQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}), {0.8f, 0.8f, 0.8f}},
-         {makeQuad({-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}), {0.1f, 0.7f, 0.2f}},
-         {makeQuad({-1, -1, 0}, {-1, 1, 0}, {-1, 1, 2}, {-1, -1, 2}), {0.7f, 0.1f, 0.1f}},
-         {makeQuad({0.2f, -0.3f, 1.2f}, {0.9f, -0.3f, 1.3f}, {0.9f, 0.5f, 1.4f},
-                   {0.2f, 0.5f, 1.3f}),
-          {0.6f, 0.5f, 0.9f},
-          true},
-         {makeSphere({0.1f, 0.2f, 0.5f}, 0.45f, 12), {0.9f, 0.9f, 0.5f}}});
+    Scene scene = test::makeFurnishedRoom();
     for (const auto& [material, metallic, roughness] :
          {std::tuple(0u, 0.0f, 0.4f), std::tuple(1u, 0.5f, 0.6f), std::tuple(3u, 1.0f, 0.5f),
           std::tuple(4u, 1.0f, 0.3f)}) {

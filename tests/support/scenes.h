@@ -52,13 +52,38 @@ inline Mesh makePatch(const Vec3f& center, const Vec3f& normal, float size) {
     return mesh;
 }
 
-/// A room with one wall missing, and a ball in it.
+/// A room with one wall missing, and what stands in it.
+inline Scene makeRoomAround(std::vector<Part> things) {
+    std::vector<Part> parts = {
+        {makeQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}), {0.8f, 0.8f, 0.8f}},
+        {makeQuad({-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}), {0.1f, 0.7f, 0.2f}},
+        {makeQuad({-1, -1, 0}, {-1, 1, 0}, {-1, 1, 2}, {-1, -1, 2}), {0.7f, 0.1f, 0.1f}}};
+    for (Part& thing : things)
+        parts.push_back(std::move(thing));
+    return assembleScene(std::move(parts));
+}
+
+/// With a ball.
 inline Scene makeRoomScene() {
-    return assembleScene(
-        {{makeQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}), {0.8f, 0.8f, 0.8f}},
-         {makeQuad({-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}), {0.1f, 0.7f, 0.2f}},
-         {makeQuad({-1, -1, 0}, {-1, 1, 0}, {-1, 1, 2}, {-1, -1, 2}), {0.7f, 0.1f, 0.1f}},
-         {makeSphere({0, 0, 0.5f}, 0.5f, 16)}});
+    return makeRoomAround({{makeSphere({0, 0, 0.5f}, 0.5f, 16)}});
+}
+
+/// With a ball, and a double-sided sheet that hangs there.
+inline Scene makeFurnishedRoom() {
+    return makeRoomAround({{makeQuad({0.2f, -0.3f, 1.2f}, {0.9f, -0.3f, 1.3f}, {0.9f, 0.5f, 1.4f},
+                                     {0.2f, 0.5f, 1.3f}),
+                            {0.6f, 0.5f, 0.9f},
+                            true},
+                           {makeSphere({0.1f, 0.2f, 0.5f}, 0.45f, 12), {0.9f, 0.9f, 0.5f}}});
+}
+
+/// With a ball, and a screen that reflects on both sides.
+inline Scene makeScreenScene() {
+    return makeRoomAround({{makeSphere({0, 0, 0.5f}, 0.5f, 16)},
+                           {makeQuad({-0.9f, -0.8f, 0.1f}, {-0.2f, -0.9f, 0.1f},
+                                     {-0.2f, -0.9f, 1.2f}, {-0.9f, -0.8f, 1.2f}),
+                            {0.9f, 0.6f, 0.3f},
+                            true}});
 }
 
 /// Rotates, scales and moves a whole scene.

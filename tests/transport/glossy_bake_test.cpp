@@ -18,36 +18,21 @@
 #include "prt/transport/transfer_matrices.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/transport/reflect_glossily.h"
 
 namespace prt {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A room with a curtain in it that reflects on both sides.
-Scene makeScene() {
-    Scene scene = test::makeRoomScene();
-    Material material;
-    material.baseColorFactor = {0.9f, 0.6f, 0.3f, 1.0f};
-    material.metallicFactor = 1.0f;
-    material.roughnessFactor = 0.5f;
-    material.doubleSided = true;
-    scene.meshes.push_back(test::makeQuad({-0.9f, -0.8f, 0.1f}, {-0.2f, -0.9f, 0.1f},
-                                          {-0.2f, -0.9f, 1.2f}, {-0.9f, -0.8f, 1.2f}));
-    scene.meshes.back().material = scene.materials.size();
-    scene.materials.push_back(material);
-    return scene;
-}
+using test::reflectGlossily;
 
-/// Reflects what comes from the mirrored direction, and some of all.
-void reflectGlossily(const SurfacePoint& point, const Vec3f& view, std::span<float> response) {
-    std::vector<float> mirrored(9);
-    evaluateSh(Vec3f(-view.x, -view.y, view.z), 3, std::span(mirrored));
-    for (std::size_t channel = 0; channel < 3; ++channel)
-        for (std::size_t i = 0; i < 9; ++i)
-            response[9 * channel + i] += (0.1f + 0.2f * static_cast<float>(channel) +
-                                          0.05f * static_cast<float>(point.mesh)) *
-                                         (mirrored[i] + (i == 2 ? 0.3f : 0.0f));
+/// The room's screen is of metal.
+Scene makeScene() {
+    Scene scene = test::makeScreenScene();
+    scene.materials.back().metallicFactor = 1.0f;
+    scene.materials.back().roughnessFactor = 0.5f;
+    return scene;
 }
 
 class GlossyBake : public testing::Test {

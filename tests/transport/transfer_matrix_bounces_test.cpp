@@ -15,6 +15,7 @@
 #include "prt/transport/transfer_matrices.h"
 #include "tests/support/scenes.h"
 #include "tests/support/transfer_matrix_checks.h"
+#include "tests/transport/reflect_glossily.h"
 #include "tests/transport/uniform_rays.h"
 
 namespace prt {
@@ -22,9 +23,10 @@ namespace {
 
 using test::BandCounts;
 using test::intoLocalFrame;
-using test::makeQuad;
 using test::makeRoomScene;
+using test::makeScreenScene;
 using test::matrixOfVertex;
+using test::reflectGlossily;
 
 // Two means of 4096 points over visibility edges, one of the cosine and one cosine-distributed, and
 // of the bounces from them.
@@ -33,19 +35,6 @@ constexpr float kCosineTolerance = 8e-3f;
 constexpr double kBowlTolerance = 2e-2;
 // Sums of a thousand numbers of about 1, in float.
 constexpr double kFloatTolerance = 2e-5;
-
-/// A room with a screen in it that reflects on both sides.
-Scene makeScreenScene() {
-    Scene scene = makeRoomScene();
-    Material material;
-    material.baseColorFactor = {0.9f, 0.6f, 0.3f, 1.0f};
-    material.doubleSided = true;
-    scene.meshes.push_back(makeQuad({-0.9f, -0.8f, 0.1f}, {-0.2f, -0.9f, 0.1f},
-                                    {-0.2f, -0.9f, 1.2f}, {-0.9f, -0.8f, 1.2f}));
-    scene.meshes.back().material = scene.materials.size();
-    scene.materials.push_back(material);
-    return scene;
-}
 
 TEST(TransferMatrixBounces, HoldTheDiffuseTransferInTheCosinesRow) {
     const Scene scene = makeScreenScene();
@@ -69,17 +58,6 @@ TEST(TransferMatrixBounces, HoldTheDiffuseTransferInTheCosinesRow) {
             }
         }
     }
-}
-
-/// Reflects what comes from the mirrored direction, and some of all.
-void reflectGlossily(const SurfacePoint& point, const Vec3f& view, std::span<float> response) {
-    std::vector<float> mirrored(9);
-    evaluateSh(Vec3f(-view.x, -view.y, view.z), 3, std::span(mirrored));
-    for (std::size_t channel = 0; channel < 3; ++channel)
-        for (std::size_t i = 0; i < 9; ++i)
-            response[9 * channel + i] += (0.1f + 0.2f * static_cast<float>(channel) +
-                                          0.05f * static_cast<float>(point.mesh)) *
-                                         (mirrored[i] + (i == 2 ? 0.3f : 0.0f));
 }
 
 constexpr BandCounts kGlossyBands = {3, 4};
