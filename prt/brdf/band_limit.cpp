@@ -8,11 +8,12 @@
 namespace prt {
 namespace {
 
-/// ∫ g² dω_i for a view. A product of two lobes is taken at the nodes of the later, narrower one.
+/// ∫ g² dω_i for a view at azimuth 0. A product of two lobes is taken at the nodes of the later,
+/// narrower one.
 double squaredNorm(const Brdf& brdf, const Vec3d& view, const LobeQuadratureOptions& options) {
     double sum = 0.0;
     for (std::size_t k = 0; k < brdf.lobes.size(); ++k)
-        for (const LobeNode& node : lobeNodes(brdf.lobes[k], view, options)) {
+        for (const LobeNode& node : uprightLobeNodes(brdf.lobes[k], view, options)) {
             Vec3d broader(0.0);
             for (std::size_t j = 0; j < k; ++j)
                 broader += evaluateLobe(brdf.lobes[j], node.incident, view);
@@ -51,7 +52,7 @@ BandLimitError measureBandLimitError(const Brdf& brdf, const BrdfProjectionOptio
     matrices.fill(makeBrdfMatrix(options.incidentBandCount, options.viewBandCount));
     for (const ViewNode& node : viewNodes(options.quadrature)) {
         const auto perView =
-            projectBrdfView(brdf, node.view, options.incidentBandCount, options.quadrature);
+            projectUprightView(brdf, node.view, options.incidentBandCount, options.quadrature);
         whole += node.solidAngle * squaredNorm(brdf, node.view, options.quadrature);
         for (std::size_t channel = 0; channel < 3; ++channel) {
             std::vector<double> fitted = perView[channel];

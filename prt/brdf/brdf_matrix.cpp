@@ -26,6 +26,29 @@ std::size_t indexOf(int l, int m) {
     return static_cast<std::size_t>(shIndex(l, m));
 }
 
+using ViewCoefficients = std::array<std::vector<double>, 3>;
+
+ViewCoefficients makeViewCoefficients(int bandCount) {
+    PRT_ASSERT(bandCount >= 1, "there is at least one band");
+    ViewCoefficients coefficients;
+    coefficients.fill(
+        std::vector<double>(static_cast<std::size_t>(shCoefficientCount(bandCount)), 0.0));
+    return coefficients;
+}
+
+void addNodes(const BrdfLobe& lobe, const Vec3d& view, const std::vector<LobeNode>& nodes,
+              int bandCount, ViewCoefficients& coefficients) {
+    std::vector<double> basis(coefficients[0].size());
+    for (const LobeNode& node : nodes) {
+        const Vec3d weighted =
+            evaluateLobe(lobe, node.incident, view) * (node.incident.z * node.solidAngle);
+        evaluateSh(node.incident, bandCount, basis);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (std::size_t i = 0; i < basis.size(); ++i)
+                coefficients[channel][i] += weighted[static_cast<int>(channel)] * basis[i];
+    }
+}
+
 }  // namespace
 
 BrdfMatrix makeBrdfMatrix(int incidentBandCount, int viewBandCount) {
@@ -94,19 +117,22 @@ std::array<std::vector<double>, 3> projectBrdfView(const Brdf& brdf, const Vec3d
                                                    int bandCount,
                                                    const LobeQuadratureOptions& options) {
     PRT_ASSERT(view.z > 0.0, "the view is above the horizon");
-    PRT_ASSERT(bandCount >= 1, "there is at least one band");
-    std::vector<double> basis(static_cast<std::size_t>(shCoefficientCount(bandCount)));
-    std::array<std::vector<double>, 3> coefficients;
-    coefficients.fill(std::vector<double>(basis.size(), 0.0));
+    ViewCoefficients coefficients = makeViewCoefficients(bandCount);
     for (const BrdfLobe& lobe : brdf.lobes)
-        for (const LobeNode& node : lobeNodes(lobe, view, options)) {
-            const Vec3d weighted =
-                evaluateLobe(lobe, node.incident, view) * (node.incident.z * node.solidAngle);
-            evaluateSh(node.incident, bandCount, basis);
-            for (std::size_t channel = 0; channel < 3; ++channel)
-                for (std::size_t i = 0; i < basis.size(); ++i)
-                    coefficients[channel][i] += weighted[static_cast<int>(channel)] * basis[i];
-        }
+        addNodes(lobe, view, lobeNodes(lobe, view, options), bandCount, coefficients);
+    return coefficients;
+}
+
+std::array<std::vector<double>, 3> projectUprightView(const Brdf& brdf, const Vec3d& view,
+                                                      int bandCount,
+                                                      const LobeQuadratureOptions& options) {
+    PRT_ASSERT(view.z > 0.0, "the view is above the horizon");
+    ViewCoefficients coefficients = makeViewCoefficients(bandCount);
+    for (const BrdfLobe& lobe : brdf.lobes)
+        addNodes(lobe, view, uprightLobeNodes(lobe, view, options), bandCount, coefficients);
+    for (std::vector<double>& channel : coefficients)
+        for (int l = 1; l < bandCount; ++l)
+            std::fill_n(channel.begin() + shIndex(l, -l), l, 0.0);
     return coefficients;
 }
 
@@ -128,7 +154,7 @@ std::array<BrdfMatrix, 3> projectBrdf(const Brdf& brdf, const BrdfProjectionOpti
     matrices.fill(makeBrdfMatrix(options.incidentBandCount, options.viewBandCount));
     for (const ViewNode& node : viewNodes(options.quadrature)) {
         const auto perView =
-            projectBrdfView(brdf, node.view, options.incidentBandCount, options.quadrature);
+            projectUprightView(brdf, node.view, options.incidentBandCount, options.quadrature);
         for (std::size_t channel = 0; channel < 3; ++channel)
             addBrdfView(node, perView[channel], matrices[channel]);
     }

@@ -66,4 +66,10 @@ std::array<std::vector<double>, 3> projectBrdfView(const Brdf& brdf, const Vec3d
                                                    int bandCount,
                                                    const LobeQuadratureOptions& options = {});
 
+/// The same in half the time for a view at azimuth 0, where coefficients of m < 0 vanish. Of a
+/// measured BRDF that is not mirror symmetric this is the mean of itself and its mirror image.
+std::array<std::vector<double>, 3> projectUprightView(const Brdf& brdf, const Vec3d& view,
+                                                      int bandCount,
+                                                      const LobeQuadratureOptions& options = {});
+
 }  // namespace prt

@@ -15,7 +15,7 @@ BrdfViewTable::BrdfViewTable(const Brdf& brdf, const BrdfViewTableOptions& optio
     rows_.reserve(viewCount_ * 3 * uprightCount(bandCount_));
     for (std::size_t view = 0; view < viewCount_; ++view) {
         auto all =
-            projectBrdfView(brdf, tableView(view, viewCount_), bandCount_, options.quadrature);
+            projectUprightView(brdf, tableView(view, viewCount_), bandCount_, options.quadrature);
         for (std::vector<double>& coefficients : all) {
             fit.apply(coefficients);
             for (int l = 0; l < bandCount_; ++l)

@@ -17,24 +17,28 @@ GltfViewTable::GltfViewTable(const GltfViewTableOptions& options)
     PRT_ASSERT(bandCount_ >= 1 && options.levelCount >= 2 && options.viewCount >= 2,
                "there is something to be linear between");
     const HorizonFit fit(bandCount_, options.horizonWeight);
+    const auto project = [&](const BrdfLobe& lobe, std::size_t view) {
+        auto channels = projectUprightView({.lobes = {lobe}}, tableView(view, viewCount_),
+                                           bandCount_, options.quadrature);
+        for (std::vector<double>& coefficients : channels)
+            fit.apply(coefficients);
+        return channels;
+    };
+    std::vector<std::vector<double>> diffuse;  // one a view
+    for (std::size_t view = 0; view < viewCount_; ++view)
+        diffuse.push_back(project(LayeredLambertLobe{Vec3d(1.0)}, view)[0]);
     elements_.reserve(levelCount_ * viewCount_ * elementCount_);
     for (std::size_t level = 0; level < levelCount_; ++level) {
         const double roughness = static_cast<double>(level) / static_cast<double>(levelCount_ - 1);
-        // The three ride on three channels: the third is diffuse and dark.
-        const Brdf brdf{
-            .lobes = {LayeredLambertLobe{Vec3d(0.0, 0.0, 1.0)},
-                      GgxLobe{.f0 = Vec3d(0.0, 1.0, 0.0), .alpha = roughness * roughness}}};
         for (std::size_t view = 0; view < viewCount_; ++view) {
-            const Vec3d direction = tableView(view, viewCount_);
-            auto all = projectBrdfView(brdf, direction, bandCount_, options.quadrature);
-            for (std::vector<double>& coefficients : all)
-                fit.apply(coefficients);
+            // The two ride on two channels.
+            const auto [dark, bright, unused] =
+                project(GgxLobe{.f0 = Vec3d(0.0, 1.0, 0.0), .alpha = roughness * roughness}, view);
             for (int l = 0; l < bandCount_; ++l)
                 for (int m = 0; m <= l; ++m) {
                     const auto i = static_cast<std::size_t>(shIndex(l, m));
-                    elements_.push_back({static_cast<float>(all[0][i]),
-                                         static_cast<float>(all[1][i]),
-                                         static_cast<float>(all[2][i] - all[0][i])});
+                    elements_.push_back({static_cast<float>(dark[i]), static_cast<float>(bright[i]),
+                                         static_cast<float>(diffuse[view][i])});
                 }
         }
     }

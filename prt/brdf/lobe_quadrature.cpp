@@ -14,17 +14,20 @@ constexpr double kPi = std::numbers::pi;
 
 /// Through the lobe's own warp of the unit square. With u = sin²(πt/2) the angles of every warp are
 /// smooth in t, at both of its ends.
+///
+/// @param turn   v of the warp from which azimuths are counted
+/// @param share  of all azimuths, that stand for the rest too
 std::vector<LobeNode> warpedNodes(const BrdfLobe& lobe, const Vec3d& view,
-                                  const LobeQuadratureOptions& options) {
+                                  const LobeQuadratureOptions& options, double turn, double share) {
+    const int azimuthCount = static_cast<int>(share * options.azimuthNodeCount);
     std::vector<LobeNode> nodes;
     for (const QuadratureNode& polar : gaussLegendre(options.polarNodeCount)) {
         const double t = 0.5 * (1.0 + polar.position);
         const double u = std::pow(std::sin(0.5 * kPi * t), 2);
-        const double weight =
-            0.25 * kPi * std::sin(kPi * t) * polar.weight / options.azimuthNodeCount;
-        for (int k = 0; k < options.azimuthNodeCount; ++k) {
-            const Vec3d incident =
-                sampleLobe(lobe, view, u, (k + 0.5) / options.azimuthNodeCount).normalized();
+        const double weight = 0.25 * kPi * std::sin(kPi * t) * polar.weight / azimuthCount;
+        for (int k = 0; k < azimuthCount; ++k) {
+            const double v = turn + (k + 0.5) / options.azimuthNodeCount;
+            const Vec3d incident = sampleLobe(lobe, view, u, v - std::floor(v)).normalized();
             const double density = lobeDensity(lobe, incident, view);
             if (incident.z > 0.0 && density > 0.0) nodes.push_back({incident, weight / density});
         }
@@ -55,16 +58,30 @@ std::vector<LobeNode> halfVectorNodes(const Vec3d& view) {
     return nodes;
 }
 
-}  // namespace
-
-std::vector<LobeNode> lobeNodes(const BrdfLobe& lobe, const Vec3d& view,
-                                const LobeQuadratureOptions& options) {
+std::vector<LobeNode> nodesOf(const BrdfLobe& lobe, const Vec3d& view,
+                              const LobeQuadratureOptions& options, double turn, double share) {
     PRT_ASSERT(options.polarNodeCount >= 1, "there is a node");
     PRT_ASSERT(options.azimuthNodeCount >= 2 && options.azimuthNodeCount % 2 == 0,
                "azimuths mirror one another");
     if (std::holds_alternative<std::monostate>(lobe)) return {};
     if (std::holds_alternative<MeasuredLobe>(lobe)) return halfVectorNodes(view);
-    return warpedNodes(lobe, view, options);
+    return warpedNodes(lobe, view, options, turn, share);
+}
+
+}  // namespace
+
+std::vector<LobeNode> lobeNodes(const BrdfLobe& lobe, const Vec3d& view,
+                                const LobeQuadratureOptions& options) {
+    return nodesOf(lobe, view, options, 0.0, 1.0);
+}
+
+std::vector<LobeNode> uprightLobeNodes(const BrdfLobe& lobe, const Vec3d& view,
+                                       const LobeQuadratureOptions& options) {
+    PRT_ASSERT(view.y == 0.0, "the view's azimuth is 0");
+    // Warps about the view or its mirror image have a tangent along y (frameAbout), others along x.
+    const bool startsAcross =
+        std::holds_alternative<PhongLobe>(lobe) || std::holds_alternative<GgxLobe>(lobe);
+    return nodesOf(lobe, view, options, startsAcross ? 0.75 : 0.0, 0.5);
 }
 
 std::vector<ViewNode> viewNodes(const LobeQuadratureOptions& options) {

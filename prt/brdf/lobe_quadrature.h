@@ -27,6 +27,11 @@ struct LobeNode {
 std::vector<LobeNode> lobeNodes(const BrdfLobe& lobe, const Vec3d& view,
                                 const LobeQuadratureOptions& options);
 
+/// Fewer nodes for a view at azimuth 0 and a g that is the same on both sides of y = 0: one of each
+/// two that mirror one another stands for both. Of a measured lobe, which may differ there, all.
+std::vector<LobeNode> uprightLobeNodes(const BrdfLobe& lobe, const Vec3d& view,
+                                       const LobeQuadratureOptions& options);
+
 /// A view at azimuth 0 that stands for all views about its angle to the normal; the solid angles
 /// sum to 2π.
 struct ViewNode {

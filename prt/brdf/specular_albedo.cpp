@@ -21,7 +21,7 @@ SpecularAlbedoTable::SpecularAlbedoTable(const SpecularAlbedoOptions& options)
             .lobes = {GgxLobe{.f0 = Vec3d(0.0, 1.0, 0.0), .alpha = roughness * roughness}}};
         for (std::size_t view = 0; view < viewCount_; ++view) {
             const auto both =
-                projectBrdfView(brdf, tableView(view, viewCount_), 1, options.quadrature);
+                projectUprightView(brdf, tableView(view, viewCount_), 1, options.quadrature);
             entries_.push_back(
                 {static_cast<float>(kPerY0 * both[0][0]), static_cast<float>(kPerY0 * both[1][0])});
         }

@@ -174,6 +174,34 @@ TEST(BrdfMatrix, AViewIsTheIntegralOverIncidentDirections) {
     }
 }
 
+TEST(BrdfMatrix, AViewAtAzimuthZeroNeedsHalfTheNodes) {
+    struct Azimuths {
+        int count;
+        double tolerance;
+    };
+    // Of quarters that are not whole, the nodes lie elsewhere, and the horizon cuts between them.
+    for (const auto& [count, tolerance] : {Azimuths{16, 1e-12}, Azimuths{18, 3e-3}})
+        for (const double degrees : {0.0, 20.0, 60.0})
+            for (const auto& [name, brdf] : test::makeAllKinds()) {
+                const Vec3d view = test::viewAt(degrees);
+                const LobeQuadratureOptions options{.polarNodeCount = 32,
+                                                    .azimuthNodeCount = count};
+                const auto all = projectBrdfView(brdf, view, 4, options);
+                const auto upright = projectUprightView(brdf, view, 4, options);
+                for (std::size_t channel = 0; channel < 3; ++channel)
+                    for (int i = 0; i < shCoefficientCount(4); ++i) {
+                        const auto k = static_cast<std::size_t>(i);
+                        const bool isUpright = i >= shIndex(shDegree(i), 0);
+                        EXPECT_NEAR(upright[channel][k], isUpright ? all[channel][k] : 0.0,
+                                    tolerance)
+                            << name << " at " << degrees << ", number " << i;
+                    }
+            }
+    const BrdfLobe lobe = makeGgx(0.5).lobes[0];
+    const Vec3d view = test::viewAt(60.0);
+    EXPECT_EQ(2 * uprightLobeNodes(lobe, view, {}).size(), lobeNodes(lobe, view, {}).size());
+}
+
 TEST(BrdfMatrix, AMeasuredBrdfHasTheMatrixOfWhatWasMeasured) {
     constexpr double kCells = 4e-3;
     const auto measured = projectBrdf(test::measuredPlastic());
