@@ -6,29 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "apps/prt/brdf_argument.h"
 #include "prt/base/fingerprint.h"
-#include "prt/brdf/brdf_view_table.h"
 #include "prt/brdf/gltf_view_table.h"
 
 namespace prt::cli {
 namespace {
 
 using BrdfTables = std::vector<std::shared_ptr<const BrdfViewTable>>;
-
-/// One a material; null where there is no BRDF.
-BrdfTables makeTables(const std::vector<std::optional<Brdf>>& brdfs, int bandCount, bool areSame) {
-    BrdfTables tables;
-    for (const std::optional<Brdf>& brdf : brdfs) {
-        if (areSame && !tables.empty())
-            tables.push_back(tables.front());
-        else if (brdf)
-            tables.push_back(std::make_shared<BrdfViewTable>(
-                *brdf, BrdfViewTableOptions{.bandCount = bandCount}));
-        else
-            tables.push_back(nullptr);
-    }
-    return tables;
-}
 
 std::string fingerprintTables(const BrdfTables& tables) {
     Fingerprint fingerprint;
@@ -57,8 +42,7 @@ BakeReflection makeBakeReflection(const Scene& scene, const BakeArguments& argum
     const std::vector<std::optional<Brdf>> brdfs =
         resolveBrdfs(scene, arguments.brdfs, arguments.scene);
     const int bandCount = arguments.bake.incidentBandCount;
-    const bool areSame = arguments.brdfs.size() == 1 && !arguments.brdfs.front().material;
-    BrdfTables tables = makeTables(brdfs, bandCount, areSame);
+    BrdfTables tables = makeViewTables(brdfs, bandCount);
     std::string setting = describeBrdfs(arguments).substr(1) + " " + fingerprintTables(tables);
     // Names of materials may be of any letters, a manifest may not.
     std::replace_if(

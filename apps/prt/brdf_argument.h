@@ -1,12 +1,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "prt/brdf/brdf.h"
+#include "prt/brdf/brdf_view_table.h"
 #include "prt/scene/scene.h"
 
 namespace prt::cli {
@@ -50,5 +52,9 @@ void addBrdfOption(CLI::App& command, std::vector<BrdfArgument>& arguments);
 std::vector<std::optional<Brdf>> resolveBrdfs(const Scene& scene,
                                               std::span<const BrdfArgument> arguments,
                                               const std::string& scenePath);
+
+/// Tables of what each material reflects, of equal BRDFs the same one; null where there is none.
+std::vector<std::shared_ptr<const BrdfViewTable>> makeViewTables(
+    std::span<const std::optional<Brdf>> brdfs, int incidentBandCount);
 
 }  // namespace prt::cli

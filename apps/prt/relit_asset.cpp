@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "apps/prt/brdf_argument.h"
 #include "prt/base/error.h"
 #include "prt/brdf/band_limit.h"
-#include "prt/brdf/brdf_view_table.h"
 #include "prt/compress/compress_transfer.h"
 #include "prt/io/image_io.h"
 #include "prt/parallel/parallel_for.h"
@@ -45,16 +45,6 @@ int findIncidentBandCount(const CompressedTransfer& transfer, ShownTransport sho
     return std::find_if(transfer.layers.begin(), transfer.layers.end(),
                         [](const CompressedLayer& layer) { return isGlossy(layer.transport); })
         ->incidentBandCount;
-}
-
-std::vector<std::shared_ptr<const BrdfViewTable>> makeTables(const GivenBrdfs& brdfs,
-                                                             int incidentBandCount) {
-    std::vector<std::shared_ptr<const BrdfViewTable>> tables;
-    for (const std::optional<Brdf>& brdf : brdfs)
-        tables.push_back(brdf ? std::make_shared<const BrdfViewTable>(
-                                    *brdf, BrdfViewTableOptions{.bandCount = incidentBandCount})
-                              : nullptr);
-    return tables;
 }
 
 }  // namespace
@@ -124,7 +114,7 @@ const GlossyRelighter& AssetRelighter::glossyRelighter(ShownTransport shown) {
     if (!views_ || views_->bandCount() != incidentBandCount)
         views_.emplace(GltfViewTableOptions{.bandCount = incidentBandCount});
     const GlossyRelightOptions options{.leastRoughness = leastRoughnessHeld(incidentBandCount),
-                                       .materialTables = makeTables(brdfs_, incidentBandCount)};
+                                       .materialTables = makeViewTables(brdfs_, incidentBandCount)};
     std::optional<CompressedTransfer> ofNormals;
     if (shown == ShownTransport::glossyUnshadowed)
         ofNormals = storeAsFloats(

@@ -17,12 +17,14 @@ namespace prt {
 /// albedo / π.
 struct LambertLobe {
     Vec3d albedo{0.0, 0.0, 0.0};
+    bool operator==(const LambertLobe&) const = default;
 };
 
 /// The diffuse light that a Fresnel layer lets through: albedo/π (1 − (1 − ω_i·h)⁵), with the half
 /// vector h [glTF 2.0, B.3.4].
 struct LayeredLambertLobe {
     Vec3d albedo{0.0, 0.0, 0.0};
+    bool operator==(const LayeredLambertLobe&) const = default;
 };
 
 /// albedo (s + 2)/(2π) max(cos α, 0)^s, α the angle between ω_i and the mirrored ω_o: scaled so
@@ -30,6 +32,7 @@ struct LayeredLambertLobe {
 struct PhongLobe {
     Vec3d albedo{0.0, 0.0, 0.0};
     double exponent = 1.0;  ///< s ≥ 0
+    bool operator==(const PhongLobe&) const = default;
 };
 
 /// GGX microfacets, F D(h) G / (4 cos θ_i cos θ_o), with height-correlated Smith G and
@@ -37,11 +40,13 @@ struct PhongLobe {
 struct GgxLobe {
     Vec3d f0{1.0, 1.0, 1.0};
     double alpha = 1.0;  ///< the square of glTF's roughness; below kMinGgxAlpha counts as that
+    bool operator==(const GgxLobe&) const = default;
 };
 
-/// As measured.
+/// As measured; equal only by the same table.
 struct MeasuredLobe {
     std::shared_ptr<const MeasuredBrdf> table;
+    bool operator==(const MeasuredLobe&) const = default;
 };
 
 using BrdfLobe =
@@ -50,6 +55,7 @@ using BrdfLobe =
 /// What its lobes reflect together, the broader one first.
 struct Brdf {
     std::array<BrdfLobe, 2> lobes;
+    bool operator==(const Brdf&) const = default;
 };
 
 /// Whether it is one at all: a black surface has a lobe too.
