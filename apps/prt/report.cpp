@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/prt/text.h"
 #include "prt/base/file.h"
 #include "prt/image/false_color.h"
 #include "prt/io/image_io.h"
@@ -80,8 +81,8 @@ Json describeMaterials(const Report& report, const ReportLight& light) {
         const MaterialError& inBands = light.sameBands.byMaterial[i];
         const ReportMaterial& material = report.materials[inBands.material];
         rows.push_back({{"material", material.name},
-                        {"metallic", material.surface.metallic},
-                        {"roughness", material.surface.roughness},
+                        {"metallic", withDigitsOf(material.surface.metallic)},
+                        {"roughness", withDigitsOf(material.surface.roughness)},
                         {"textured", material.isTextured},
                         {"replaced", material.isReplaced},
                         {"pixels", inBands.pixelCount},

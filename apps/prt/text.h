@@ -16,4 +16,7 @@ std::string formatPercent(double part);       ///< "12 %", "1.2 %", "0.12 %"
 std::string formatDecibels(double decibels);  ///< "41.5 dB", or "equal" for infinitely many
 std::string formatDuration(double seconds);   ///< "12 s", "3 min 04 s", "2 h 05 min"
 
+/// The double that JSON writes as the shortest decimal of a float: 0.1, not 0.10000000149011612.
+double withDigitsOf(float number);
+
 }  // namespace prt::cli

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/prt/text.h"
 #include "prt/base/error.h"
 #include "prt/base/file.h"
 #include "prt/compress/transfer_textures.h"
@@ -42,6 +43,13 @@ std::string textureName(std::size_t index) {
     return fmt::format("transfer-{:02}.png", index);
 }
 
+Json describe(const std::vector<float>& numbers) {
+    Json json = Json::array();
+    for (const float number : numbers)
+        json.push_back(withDigitsOf(number));
+    return json;
+}
+
 std::string describe(const TransferTextures& textures, std::size_t vertexCount) {
     Json json = {{"transport", transportName(textures.transport)},
                  {"bands", textures.bandCount},
@@ -51,11 +59,11 @@ std::string describe(const TransferTextures& textures, std::size_t vertexCount) 
                  {"width", textures.width},
                  {"height", textures.height},
                  {"coefficients", textures.coefficients},
-                 {"scale", textures.table.scale},
-                 {"bias", textures.table.bias}};
+                 {"scale", describe(textures.table.scale)},
+                 {"bias", describe(textures.table.bias)}};
     if (textures.leftOut)
         json["left_out"] = {{"coefficient", textures.leftOut->index},
-                            {"mean", textures.leftOut->mean},
+                            {"mean", describe(textures.leftOut->mean)},
                             {"rmse", textures.leftOut->rmse},
                             {"largest_error", textures.leftOut->largestError}};
     for (std::size_t i = 0; i < textures.textureCount(); ++i)
