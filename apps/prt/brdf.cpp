@@ -175,8 +175,7 @@ void addBrdfCommand(CLI::App& app) {
         ->type_name("OUT.png|exr");
     command
         ->add_option("--merl", arguments->merl,
-                     "also write it as a file of the MERL database, 35 MB, as measured at the "
-                     "middles of its cells")
+                     "also write it as a file of the MERL database, 35 MB")
         ->type_name("OUT.binary");
     command->callback([arguments] { runBrdf(*arguments); });
 }
