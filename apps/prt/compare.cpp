@@ -93,6 +93,8 @@ class AssetComparison {
             throw Error(ErrorCode::invalidOption,
                         fmt::format("was baked with {} bands only", asset_.transfer.bandCount),
                         arguments.asset, "ask for fewer --band-counts, or bake more --bands");
+        for (const std::string& sentence : describeLostLobes(asset_, shown_, brdfs_))
+            log.warn(sentence);
         for (const std::optional<Brdf>& brdf : brdfs_)
             tracedBrdfs_.push_back(brdf.value_or(Brdf()));
         referenceOptions_ = makeReferenceOptions();

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/prt/brdf_argument.h"
+#include "apps/prt/text.h"
 #include "prt/base/error.h"
 #include "prt/brdf/band_limit.h"
 #include "prt/compress/compress_transfer.h"
@@ -79,6 +80,26 @@ ShownTransport chooseShown(const Asset& asset, const std::string& path,
                 fmt::format("is not shown by {} transport, for which all surfaces are diffuse",
                             shownTransportName(shown)),
                 "--brdf", "show --transport glossy");
+}
+
+std::vector<std::string> describeLostLobes(const Asset& asset, ShownTransport shown,
+                                           const GivenBrdfs& brdfs) {
+    std::vector<std::string> sentences;
+    for (auto brdf = brdfs.begin(); brdf != brdfs.end(); ++brdf) {
+        if (!*brdf || std::find(brdfs.begin(), brdf, *brdf) != brdf) continue;
+        const int bandCount = findIncidentBandCount(asset.transfer, shown);
+        const double lost =
+            measureBandLimitError(**brdf, {.incidentBandCount = bandCount, .viewBandCount = 1})
+                .incident;
+        if (lost <= kMostLobeError) continue;
+        const Material& first =
+            asset.scene.materials[static_cast<std::size_t>(brdf - brdfs.begin())];
+        sentences.push_back(
+            fmt::format("{} lose {:.0f} % of the lobe that --brdf gives {} (see prt brdf --help)",
+                        formatCount(static_cast<std::uint64_t>(bandCount), "band"), 100.0 * lost,
+                        first.name.empty() ? "a material" : first.name));
+    }
+    return sentences;
 }
 
 AssetRelighter::AssetRelighter(const Asset& asset, std::string path, GivenBrdfs brdfs,

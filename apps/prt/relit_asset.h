@@ -35,6 +35,10 @@ using GivenBrdfs = std::vector<std::optional<Brdf>>;
 ShownTransport chooseShown(const Asset& asset, const std::string& path,
                            std::optional<ShownTransport> asked, const GivenBrdfs& brdfs);
 
+/// A sentence for each of the BRDFs whose lobe the bands of an asset's matrices cannot hold.
+std::vector<std::string> describeLostLobes(const Asset& asset, ShownTransport shown,
+                                           const GivenBrdfs& brdfs);
+
 /// Relights an asset. What its normals tell needs no layer, so every asset can show it; the others
 /// must have been baked.
 class AssetRelighter {

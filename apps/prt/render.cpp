@@ -49,6 +49,8 @@ Image renderPicture(const RenderArguments& arguments, const Asset& asset, const 
                     StageLog& log) {
     const GivenBrdfs brdfs = resolveBrdfs(asset.scene, arguments.brdfs, arguments.asset);
     const ShownTransport shown = chooseShown(asset, arguments.asset, arguments.transport, brdfs);
+    for (const std::string& sentence : describeLostLobes(asset, shown, brdfs))
+        log.warn(sentence);
     const Camera camera = chooseCamera(arguments.view, asset.scene, arguments.asset);
     const Mat3d rotation = rotationFromDegrees(arguments.rotationDegrees);
 

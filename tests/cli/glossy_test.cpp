@@ -147,6 +147,20 @@ TEST_F(GlossyAsset, ComparesOtherBrdfs) {
         EXPECT_TRUE(row.at("replaced").get<bool>());
 }
 
+TEST_F(GlossyAsset, WarnsOfALobeThatItsBandsLose) {
+    const auto renderWith = [](const std::string& brdf) {
+        return attempt({"render", baked("glossy-shadowed"), "--light", "uniform:1", "-o",
+                        "lobe.exr", "--size", "8x8", "--brdf", brdf});
+    };
+    const CommandResult lost = renderWith("rough=phong:1,1,1,200");
+    EXPECT_EQ(lost.exitCode, 0);
+    EXPECT_NE(lost.errors.find("5 bands lose 9"), std::string::npos) << lost.errors;
+    EXPECT_NE(lost.errors.find("gives rough"), std::string::npos) << lost.errors;
+    const CommandResult held = renderWith("rough=phong:1,1,1,2");
+    EXPECT_EQ(held.exitCode, 0);
+    EXPECT_EQ(held.errors.find("lose"), std::string::npos) << held.errors;
+}
+
 TEST_F(GlossyAsset, WrongInputIsOneSentence) {
     struct Wrong {
         std::vector<std::string> arguments;
