@@ -17,8 +17,7 @@ std::size_t countBlocks(std::size_t matrixCount) {
 }  // namespace
 
 ClusterMatrices::ClusterMatrices(const CompressedLayer& layer, int bandCount)
-    : vectorSize_(3 * paddedRowCount(
-                          static_cast<std::size_t>(shCoefficientCount(layer.incidentBandCount)))),
+    : vectorSize_(3 * incidentRowSize(layer.incidentBandCount)),
       bases_(layer.bases->vectors, bandCount, layer.incidentBandCount, layer.channelCount),
       clusters_(layer.table.numbers.rowCount()) {
     for (const std::size_t first : layer.bases->firstVectors())

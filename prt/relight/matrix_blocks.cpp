@@ -28,14 +28,26 @@ struct GroupPlace {
     }
 };
 
+/// The rows of a matrix, in the order in which incident radiance is kept.
+std::vector<std::size_t> orderRows(int incidentBandCount) {
+    std::vector<std::size_t> rows(static_cast<std::size_t>(shCoefficientCount(incidentBandCount)));
+    for (int l = 0; l < incidentBandCount; ++l)
+        for (int m = -l; m <= l; ++m)
+            rows[incidentIndex(incidentBandCount, l, m)] = static_cast<std::size_t>(shIndex(l, m));
+    return rows;
+}
+
 }  // namespace
 
 MatrixBlocks::MatrixBlocks(const StoredTable& matrices, int bandCount, int incidentBandCount,
                            int channelCount)
-    : matrixCount_(matrices.numbers.rowCount()), ranges_(storedRanges(matrices)) {
+    : matrixCount_(matrices.numbers.rowCount()),
+      rows_(orderRows(incidentBandCount)),
+      ranges_(storedRanges(matrices)) {
     view_.encoding = matrices.encoding;
     view_.channelCount = static_cast<std::size_t>(channelCount);
-    view_.rowCount = static_cast<std::size_t>(shCoefficientCount(incidentBandCount));
+    view_.rowCount = rows_.size();
+    view_.paddedRowCount = incidentRowSize(incidentBandCount);
     view_.columnCount = static_cast<std::size_t>(shCoefficientCount(bandCount));
     PRT_ASSERT(matrices.numbers.columnCount() == view_.matrixSize(),
                "a number for each channel, row and column");
@@ -70,7 +82,7 @@ void MatrixBlocks::pack(const CoefficientTable& numbers) {
             for (std::size_t channel = 0; channel < view_.channelCount; ++channel)
                 for (std::size_t row = 0; row < group.width; ++row) {
                     const Stored* const from =
-                        &matrix[(channel * view_.rowCount + group.firstRow + row) *
+                        &matrix[(channel * view_.rowCount + rows_[group.firstRow + row]) *
                                 view_.columnCount];
                     Stored* const to =
                         block + place.firstColumn + channel * place.channelStride + row;
@@ -106,7 +118,7 @@ AlignedBytes MatrixBlocks::fold(const Lighting& lighting) const {
         for (std::size_t color = 0; color < 3; ++color)
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
                 const std::size_t channel = view_.channelCount == 3 ? color : 0;
-                const std::size_t i = group.firstRow + lane % group.width;
+                const std::size_t i = rows_[group.firstRow + lane % group.width];
                 float* const at = folded + color * kLanes + lane;
                 double constant = 0.0;
                 for (std::size_t j = 0; j < lighting.coefficients.size(); ++j) {

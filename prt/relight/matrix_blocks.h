@@ -41,8 +41,8 @@ class MatrixBlocks {
     /// @param light     folded
     /// @param begin     a multiple of kMatrixBlockSize
     /// @param stride    floats from one matrix's incident radiance to the next's
-    /// @param incident  [matrix][3][padded row] of whole blocks from begin on, written; padded with
-    ///                  zeros
+    /// @param incident  [matrix][3][incidentIndex] of whole blocks from begin on, written; rows are
+    ///                  padded with zeros
     void multiply(const AlignedBytes& light, std::size_t begin, std::size_t blockCount,
                   std::size_t stride, float* incident) const;
 
@@ -52,6 +52,7 @@ class MatrixBlocks {
     void pack(const CoefficientTable& numbers);
 
     std::size_t matrixCount_ = 0;
+    std::vector<std::size_t> rows_;  ///< of a matrix, in the order of incidentIndex
     std::vector<RowGroup> groups_;
     std::vector<StoredRange> ranges_;  ///< [channel][i][j]
     AlignedBytes bytes_;

@@ -54,15 +54,16 @@ HWY_INLINE void storeSums(Vector sums, std::size_t vector, std::size_t lane, std
                           color * result.channelStride + lane % kWidth);
 }
 
-/// Zeros what a block's rows end with.
-HWY_INLINE void clearPadding(const GroupResult& result) {
+/// Zeros what a block's rows end with, from the last whole vector on.
+HWY_INLINE void clearPadding(const MatrixView& matrices, const GroupResult& result) {
     const FloatTag d;
+    const std::size_t begin = matrices.rowCount / kLanes * kLanes;
     for (std::size_t matrix = 0; matrix < kMatrixBlockSize; ++matrix)
-        for (std::size_t channel = 1; channel <= 3; ++channel)
-            for (std::size_t lane = kLanes; lane > 0; lane -= hn::Lanes(d))
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (std::size_t row = begin; row < result.channelStride; row += hn::Lanes(d))
                 hn::StoreU(hn::Zero(d), d,
                            result.incident + matrix * result.matrixStride +
-                               channel * result.channelStride - lane);
+                               channel * result.channelStride + row);
 }
 
 /// Multiplies matrices that are the same for red, green and blue. @return  behind the last number
@@ -144,7 +145,7 @@ void multiplyStored(const MatrixView& matrices, const float* light, std::size_t 
                     GroupResult result) {
     const auto* numbers = reinterpret_cast<const Stored*>(matrices.data);
     for (std::size_t block = 0; block < blockCount; ++block) {
-        clearPadding(result);
+        clearPadding(matrices, result);
         const float* groupLight = light;
         for (const RowGroup& group : matrices.groups) {
             GroupResult rows = result;
@@ -170,7 +171,7 @@ void multiplyStored(const MatrixView& matrices, const float* light, std::size_t 
 
 void multiply(const MatrixView& matrices, const float* light, std::size_t blockCount,
               std::size_t stride, float* incident) {
-    const GroupResult result = {stride, paddedRowCount(matrices.rowCount), incident};
+    const GroupResult result = {stride, matrices.paddedRowCount, incident};
     switch (matrices.encoding) {
         case TransferEncoding::float32:
             return multiplyStored<float>(matrices, light, blockCount, result);

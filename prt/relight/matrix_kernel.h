@@ -4,19 +4,13 @@
 #include <span>
 #include <vector>
 
+#include "prt/relight/incident_order.h"
 #include "prt/transfer/stored_table.h"
 
 namespace prt {
 
 /// Matrices are multiplied in blocks of as many.
 inline constexpr std::size_t kMatrixBlockSize = 16;
-
-/// Incident radiance stands in vectors of as many numbers, the last filled up with zeros.
-inline constexpr std::size_t kIncidentLanes = 16;
-
-constexpr std::size_t paddedRowCount(std::size_t rowCount) {
-    return (rowCount + kIncidentLanes - 1) / kIncidentLanes * kIncidentLanes;
-}
 
 /// Rows of matrices that are multiplied together: 16, 8, 4 or 1.
 struct RowGroup {
@@ -37,6 +31,7 @@ struct MatrixView {
     TransferEncoding encoding = TransferEncoding::float32;
     std::size_t channelCount = 1;
     std::size_t rowCount = 0;            ///< n_in²
+    std::size_t paddedRowCount = 0;      ///< of their incident radiance
     std::size_t columnCount = 0;         ///< n²
     std::span<const RowGroup> groups{};  ///< of its rows
     const std::byte* data = nullptr;     ///< aligned to 64 bytes

@@ -1,13 +1,13 @@
 #include "prt/relight/receiver_lobes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "prt/base/assert.h"
 #include "prt/basis/sh.h"
 #include "prt/basis/zonal.h"
 #include "prt/brdf/view_angle.h"
+#include "prt/relight/incident_order.h"
 #include "prt/relight/matrix_kernel.h"
 
 namespace prt {
@@ -24,14 +24,14 @@ float* floatsOf(const AlignedBytes& bytes) {
     return reinterpret_cast<float*>(bytes.get());
 }
 
-/// Writes coefficients of m ≥ 0 out for m and −m.
+/// Writes coefficients of m ≥ 0 in the order of incident radiance.
 ///
 /// @param elementAt  of uprightIndex
 template <class ElementAt>
-void expandRow(int bandCount, const ElementAt& elementAt, float* row) {
+void orderRow(int bandCount, const ElementAt& elementAt, float* row) {
     for (int l = 0; l < bandCount; ++l)
-        for (int m = -l; m <= l; ++m)
-            row[shIndex(l, m)] = elementAt(uprightIndex(l, std::abs(m)));
+        for (int m = 0; m <= l; ++m)
+            row[incidentIndex(bandCount, l, m)] = elementAt(uprightIndex(l, m));
 }
 
 }  // namespace
@@ -41,14 +41,14 @@ ReceiverLobes::ReceiverLobes(std::span<const ReceiverSurface> receivers, const G
                              const LobeSplit& split)
     : lobes_(receivers.size()), others_(materialTables.size()) {
     view_.bandCount = views.bandCount();
-    const auto rowCount = static_cast<std::size_t>(shCoefficientCount(view_.bandCount));
-    view_.rowSize = paddedRowCount(rowCount);
-    azimuths_ = allocateFloats(view_.rowSize);
-    auto* const azimuths = reinterpret_cast<std::int32_t*>(azimuths_.get());
+    view_.rowSize = incidentRowSize(view_.bandCount);
+    view_.uprightSize = uprightRowSize(view_.bandCount);
+    orders_ = allocateFloats(view_.uprightSize);
+    auto* const orders = reinterpret_cast<std::int32_t*>(orders_.get());
     for (int l = 0; l < view_.bandCount; ++l)
-        for (int m = -l; m <= l; ++m)
-            azimuths[shIndex(l, m)] = azimuthIndex(view_.bandCount, m);
-    view_.azimuths = azimuths;
+        for (int m = 0; m <= l; ++m)
+            orders[incidentIndex(view_.bandCount, l, m)] = m;
+    view_.orders = orders;
 
     placeReceivers(receivers);
     copyGltfRows(views);
@@ -66,7 +66,7 @@ ReceiverLobes::ReceiverLobes(std::span<const ReceiverSurface> receivers, const G
         const TablePlace level =
             placeBetween(std::clamp(roughness, 0.0f, 1.0f), views.levelCount());
         lobe.viewCount = static_cast<std::uint32_t>(views.viewCount());
-        lobe.rows = floatsOf(specular_) + level.first * views.viewCount() * 2 * view_.rowSize;
+        lobe.rows = floatsOf(specular_) + level.first * views.viewCount() * 2 * view_.uprightSize;
         lobe.levelShare = level.share;
         lobe.metallic = metallic;
     }
@@ -89,7 +89,7 @@ void ReceiverLobes::placeReceivers(std::span<const ReceiverSurface> receivers) {
 }
 
 void ReceiverLobes::copyGltfRows(const GltfViewTable& views) {
-    const std::size_t rowSize = view_.rowSize;
+    const std::size_t rowSize = view_.uprightSize;
     specular_ = allocateFloats(views.levelCount() * views.viewCount() * 2 * rowSize);
     diffuse_ = allocateFloats(views.viewCount() * rowSize);
     float* specular = floatsOf(specular_);
@@ -99,9 +99,9 @@ void ReceiverLobes::copyGltfRows(const GltfViewTable& views) {
             const auto darkAt = [&](std::size_t i) { return row[i].dark; };
             const auto rangeAt = [&](std::size_t i) { return row[i].bright - row[i].dark; };
             const auto diffuseAt = [&](std::size_t i) { return row[i].diffuse; };
-            expandRow(view_.bandCount, darkAt, specular);
-            expandRow(view_.bandCount, rangeAt, specular + rowSize);
-            expandRow(view_.bandCount, diffuseAt, floatsOf(diffuse_) + view * rowSize);
+            orderRow(view_.bandCount, darkAt, specular);
+            orderRow(view_.bandCount, rangeAt, specular + rowSize);
+            orderRow(view_.bandCount, diffuseAt, floatsOf(diffuse_) + view * rowSize);
         }
     view_.diffuse = floatsOf(diffuse_);
 }
@@ -112,13 +112,13 @@ void ReceiverLobes::copyOtherRows(
         if (!materialTables[material]) continue;
         const BrdfViewTable& table = *materialTables[material];
         PRT_ASSERT(table.bandCount() == view_.bandCount, "views for the same bands");
-        others_[material] = allocateFloats(table.viewCount() * 3 * view_.rowSize);
+        others_[material] = allocateFloats(table.viewCount() * 3 * view_.uprightSize);
         float* row = floatsOf(others_[material]);
         for (std::size_t view = 0; view < table.viewCount(); ++view)
-            for (std::size_t channel = 0; channel < 3; ++channel, row += view_.rowSize) {
+            for (std::size_t channel = 0; channel < 3; ++channel, row += view_.uprightSize) {
                 const std::size_t first = channel * uprightCount(view_.bandCount);
                 const auto elementAt = [&](std::size_t i) { return table.row(view)[first + i]; };
-                expandRow(view_.bandCount, elementAt, row);
+                orderRow(view_.bandCount, elementAt, row);
             }
     }
 }
@@ -132,10 +132,10 @@ void ReceiverLobes::splitLobes(std::span<const ReceiverSurface> receivers, const
     view_.hasBounced = split.hasBounced && !chosen.empty();
     view_.incidentSize = (view_.hasBounced ? 6 : 3) * view_.rowSize;
 
-    open_ = allocateFloats(view_.rowSize);
+    open_ = allocateFloats(view_.uprightSize);
     const std::vector<double> hemisphere = capZonal(view_.bandCount, 0.5 * std::numbers::pi);
     for (int l = 0; l < view_.bandCount; ++l)
-        floatsOf(open_)[shIndex(l, 0)] =
+        floatsOf(open_)[incidentIndex(view_.bandCount, l, 0)] =
             static_cast<float>(hemisphere[static_cast<std::size_t>(l)]);
     view_.open = floatsOf(open_);
 
@@ -151,8 +151,10 @@ void ReceiverLobes::splitLobes(std::span<const ReceiverSurface> receivers, const
         const std::size_t columnCount =
             matrix.size() / rowCount / static_cast<std::size_t>(split.visibility->channelCount);
         float* const arriving = floatsOf(arriving_) + k * view_.rowSize;
-        for (std::size_t i = 0; i < rowCount; ++i)
-            arriving[i] = kWhite * matrix[i * columnCount];
+        for (int l = 0; l < view_.bandCount; ++l)
+            for (int m = -l; m <= l; ++m)
+                arriving[incidentIndex(view_.bandCount, l, m)] =
+                    kWhite * matrix[static_cast<std::size_t>(shIndex(l, m)) * columnCount];
         lobe.kind = LobeKind::split;
         lobe.arriving = arriving;
     }

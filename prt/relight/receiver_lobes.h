@@ -38,8 +38,8 @@ class ReceiverLobes {
     std::size_t incidentSize() const { return view_.incidentSize; }
 
     /// @param begin     a multiple of kReflectBlockSize
-    /// @param incident  of the receivers from begin on, [receiver][channel][padded row], and again
-    ///                  of what has bounced where the split says so
+    /// @param incident  of the receivers from begin on, [receiver][channel][incidentIndex], and
+    ///                  again of what has bounced where the split says so
     /// @param ahead     memory that will be read next
     /// @param radiance  of the receivers from begin on, written
     void reflect(const Vec3f& eye, std::size_t begin, const float* incident,
@@ -58,7 +58,7 @@ class ReceiverLobes {
     std::vector<AlignedBytes> others_;  ///< of each material
     AlignedBytes open_;
     AlignedBytes arriving_;
-    AlignedBytes azimuths_;
+    AlignedBytes orders_;
     ReflectView view_;
 };
 

@@ -11,6 +11,7 @@
 #include <hwy/contrib/math/math-inl.h>
 
 #include "prt/basis/sh.h"
+#include "prt/relight/incident_order.h"
 #include "prt/relight/relight_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,13 +19,14 @@ namespace prt::HWY_NAMESPACE {
 namespace {
 
 constexpr std::size_t kBlock = kReflectBlockSize;
-constexpr std::size_t kMostAzimuths = 2 * kMaxBandCount - 1;
+static_assert(kMaxBandCount <= kBlock);
 constexpr float kDielectricF0 = 0.04f;
 
 /// Where a block's receivers see the eye.
 struct BlockViews {
-    HWY_ALIGN float positions[kBlock];  ///< among a table's views, 0 to 1
-    HWY_ALIGN float azimuths[kBlock][32];
+    HWY_ALIGN float positions[kBlock];        ///< among a table's views, 0 to 1
+    HWY_ALIGN float cosines[kBlock][kBlock];  ///< [receiver][m]: cos mφ
+    HWY_ALIGN float sines[kBlock][kBlock];
 };
 
 struct VectorXyz {
@@ -62,8 +64,9 @@ HWY_INLINE VectorXyz localView(const float* places, const Vec3f& eye) {
 void placeViews(const float* places, const Vec3f& eye, int bandCount, BlockViews& views) {
     const FloatTag d;
     const Vector one = hn::Set(d, 1.0f);
-    HWY_ALIGN float factors[kMostAzimuths][kBlock];
-    const auto sineRow = static_cast<std::size_t>(bandCount - 1);
+    HWY_ALIGN float cosines[kMaxBandCount][kBlock];
+    HWY_ALIGN float sines[kMaxBandCount][kBlock];
+    const auto orderCount = static_cast<std::size_t>(bandCount);
     for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(d)) {
         const VectorXyz view = localView(places + lane, eye);
         const Vector z = hn::Min(hn::Max(view.z, hn::Zero(d)), one);
@@ -77,56 +80,79 @@ void placeViews(const float* places, const Vec3f& eye, int bandCount, BlockViews
         const Vector stepSine = hn::IfThenElseZero(isAside, hn::Div(view.y, radius));
         Vector cosine = one;
         Vector sine = hn::Zero(d);
-        hn::Store(cosine, d, &factors[0][lane]);
-        for (std::size_t m = 1; m <= sineRow; ++m) {
+        hn::Store(cosine, d, &cosines[0][lane]);
+        hn::Store(sine, d, &sines[0][lane]);
+        for (std::size_t m = 1; m < orderCount; ++m) {
             const Vector next = hn::NegMulAdd(sine, stepSine, hn::Mul(cosine, stepCosine));
             sine = hn::MulAdd(cosine, stepSine, hn::Mul(sine, stepCosine));
             cosine = next;
-            hn::Store(cosine, d, &factors[m][lane]);
-            hn::Store(sine, d, &factors[sineRow + m][lane]);
+            hn::Store(cosine, d, &cosines[m][lane]);
+            hn::Store(sine, d, &sines[m][lane]);
         }
     }
     for (std::size_t receiver = 0; receiver < kBlock; ++receiver)
-        for (std::size_t k = 0; k <= 2 * sineRow; ++k)
-            views.azimuths[receiver][k] = factors[k][receiver];
+        for (std::size_t m = 0; m < orderCount; ++m) {
+            views.cosines[receiver][m] = cosines[m][receiver];
+            views.sines[receiver][m] = sines[m][receiver];
+        }
 }
 
 /// Results of a receiver, lane by lane: perBaseColor, constant, and of a split one what arrives of
 /// white light and what would unshadowed.
 using LobeSums = Vector[8];
 
-HWY_INLINE void addTo(Vector& sum, Vector response, const float* incident) {
-    sum = hn::MulAdd(response, hn::LoadU(FloatTag(), incident), sum);
-}
-
 /// A receiver and one view of it.
 struct ViewedLobe {
     const ReceiverLobe& lobe;
-    const float* azimuths = nullptr;
+    const float* cosines = nullptr;
+    const float* sines = nullptr;
     const float* incident = nullptr;
     std::size_t firstView = 0;  ///< of the table's
     float viewShare = 0.0f;     ///< of the next
 };
 
-HWY_INLINE Vector lookUpAzimuth(const ReflectView& receivers, const float* azimuths,
-                                std::size_t lane) {
+/// Picks the factor of each lane.
+HWY_INLINE Vector lookUp(const float* factors, const std::int32_t* orders) {
     const FloatTag d;
-    const auto indices = hn::Load(hn::RebindToSigned<FloatTag>(), receivers.azimuths + lane);
-    if constexpr (hn::MaxLanes(d) == kBlock) {
-        if (2 * receivers.bandCount - 1 <= static_cast<int>(kBlock))
-            return hn::TableLookupLanes(hn::Load(d, azimuths), hn::IndicesFromVec(d, indices));
+    const auto indices = hn::Load(hn::RebindToSigned<FloatTag>(), orders);
+    if constexpr (hn::MaxLanes(d) == kBlock)
+        return hn::TableLookupLanes(hn::Load(d, factors), hn::IndicesFromVec(d, indices));
+    else
+        return hn::GatherIndex(d, factors, indices);
+}
+
+/// Turns incident radiance about the normal, a vector of coefficients of m ≥ 0, until the view is
+/// at azimuth 0: cos mφ l_(l,m) + sin mφ l_(l,−m).
+struct Turn {
+    Vector cosine, sine;
+    std::size_t lane = 0;
+    std::size_t partner = 0;
+
+    HWY_INLINE Turn(const ReflectView& receivers, const ViewedLobe& viewed, std::size_t lane_)
+        : cosine(lookUp(viewed.cosines, receivers.orders + lane_)),
+          sine(lookUp(viewed.sines, receivers.orders + lane_)),
+          lane(lane_),
+          partner(lane_ + pairCount(receivers.bandCount)) {}
+
+    HWY_INLINE Vector operator()(const float* incident) const {
+        const FloatTag d;
+        return hn::MulAdd(cosine, hn::LoadU(d, incident + lane),
+                          hn::Mul(sine, hn::LoadU(d, incident + partner)));
     }
-    return hn::GatherIndex(d, azimuths, indices);
+};
+
+HWY_INLINE void addTo(Vector& sum, Vector response, Vector incident) {
+    sum = hn::MulAdd(response, incident, sum);
 }
 
 template <bool kSplit>
 HWY_INLINE void reflectGltf(const ReflectView& receivers, const ViewedLobe& viewed,
                             LobeSums& sums) {
     const FloatTag d;
-    const std::size_t rowSize = receivers.rowSize;
-    const std::size_t levelSize = viewed.lobe.viewCount * 2 * rowSize;
-    const float* const low = viewed.lobe.rows + viewed.firstView * 2 * rowSize;
-    const float* const diffuseRow = receivers.diffuse + viewed.firstView * rowSize;
+    const std::size_t size = receivers.uprightSize;
+    const std::size_t levelSize = viewed.lobe.viewCount * 2 * size;
+    const float* const low = viewed.lobe.rows + viewed.firstView * 2 * size;
+    const float* const diffuseRow = receivers.diffuse + viewed.firstView * size;
     const float level = viewed.lobe.levelShare;
     const Vector above = hn::Set(d, viewed.viewShare);
     const Vector below = hn::Set(d, 1.0f - viewed.viewShare);
@@ -135,9 +161,9 @@ HWY_INLINE void reflectGltf(const ReflectView& receivers, const ViewedLobe& view
     const Vector highBelow = hn::Set(d, level * (1.0f - viewed.viewShare));
     const Vector highAbove = hn::Set(d, level * viewed.viewShare);
     const auto blend = [&](const float* row) HWY_ATTR {
-        const Vector atLow = hn::MulAdd(lowAbove, hn::Load(d, row + 2 * rowSize),
-                                        hn::Mul(lowBelow, hn::Load(d, row)));
-        return hn::MulAdd(highAbove, hn::Load(d, row + levelSize + 2 * rowSize),
+        const Vector atLow =
+            hn::MulAdd(lowAbove, hn::Load(d, row + 2 * size), hn::Mul(lowBelow, hn::Load(d, row)));
+        return hn::MulAdd(highAbove, hn::Load(d, row + levelSize + 2 * size),
                           hn::MulAdd(highBelow, hn::Load(d, row + levelSize), atLow));
     };
     const float metallicShare = viewed.lobe.metallic;
@@ -145,31 +171,32 @@ HWY_INLINE void reflectGltf(const ReflectView& receivers, const ViewedLobe& view
     const Vector coat = hn::Set(d, kDielectricF0 * (1.0f - metallicShare));
     const Vector base = hn::Set(d, (1.0f - kDielectricF0) * (1.0f - metallicShare));
 
-    for (std::size_t lane = 0; lane < rowSize; lane += hn::Lanes(d)) {
-        const Vector azimuth = lookUpAzimuth(receivers, viewed.azimuths, lane);
-        const Vector dark = hn::Mul(azimuth, blend(low + lane));
-        const Vector range = hn::Mul(azimuth, blend(low + rowSize + lane));
-        const Vector layered = hn::Mul(hn::Mul(azimuth, base),
-                                       hn::MulAdd(above, hn::Load(d, diffuseRow + rowSize + lane),
-                                                  hn::Mul(below, hn::Load(d, diffuseRow + lane))));
+    for (std::size_t lane = 0; lane < size; lane += hn::Lanes(d)) {
+        const Turn turn(receivers, viewed, lane);
+        const Vector dark = blend(low + lane);
+        const Vector range = blend(low + size + lane);
+        const Vector layered =
+            hn::Mul(base, hn::MulAdd(above, hn::Load(d, diffuseRow + size + lane),
+                                     hn::Mul(below, hn::Load(d, diffuseRow + lane))));
         const Vector constant = hn::MulAdd(coat, range, dark);
-        const float* const all = viewed.incident + lane;
         if constexpr (!kSplit) {
             const Vector perBaseColor = hn::MulAdd(metallic, range, layered);
             for (std::size_t c = 0; c < 3; ++c) {
-                addTo(sums[c], perBaseColor, all + c * rowSize);
-                addTo(sums[3 + c], constant, all + c * rowSize);
+                const Vector all = turn(viewed.incident + c * receivers.rowSize);
+                addTo(sums[c], perBaseColor, all);
+                addTo(sums[3 + c], constant, all);
             }
         } else {
             for (std::size_t c = 0; c < 3; ++c) {
-                addTo(sums[c], layered, all + c * rowSize);
+                addTo(sums[c], layered, turn(viewed.incident + c * receivers.rowSize));
                 if (!receivers.hasBounced) continue;
-                addTo(sums[c], hn::Mul(metallic, range), all + (3 + c) * rowSize);
-                addTo(sums[3 + c], constant, all + (3 + c) * rowSize);
+                const Vector bounced = turn(viewed.incident + (3 + c) * receivers.rowSize);
+                addTo(sums[c], hn::Mul(metallic, range), bounced);
+                addTo(sums[3 + c], constant, bounced);
             }
             const Vector bright = hn::Add(dark, range);
-            addTo(sums[6], bright, viewed.lobe.arriving + lane);
-            addTo(sums[7], bright, receivers.open + lane);
+            addTo(sums[6], bright, turn(viewed.lobe.arriving));
+            addTo(sums[7], bright, hn::Load(d, receivers.open + lane));
         }
     }
 }
@@ -177,17 +204,17 @@ HWY_INLINE void reflectGltf(const ReflectView& receivers, const ViewedLobe& view
 HWY_INLINE void reflectOther(const ReflectView& receivers, const ViewedLobe& viewed,
                              LobeSums& sums) {
     const FloatTag d;
-    const std::size_t rowSize = receivers.rowSize;
-    const float* const row = viewed.lobe.rows + viewed.firstView * 3 * rowSize;
+    const std::size_t size = receivers.uprightSize;
+    const float* const row = viewed.lobe.rows + viewed.firstView * 3 * size;
     const Vector above = hn::Set(d, viewed.viewShare);
     const Vector below = hn::Set(d, 1.0f - viewed.viewShare);
-    for (std::size_t lane = 0; lane < rowSize; lane += hn::Lanes(d)) {
-        const Vector azimuth = lookUpAzimuth(receivers, viewed.azimuths, lane);
+    for (std::size_t lane = 0; lane < size; lane += hn::Lanes(d)) {
+        const Turn turn(receivers, viewed, lane);
         for (std::size_t c = 0; c < 3; ++c) {
-            const float* const at = row + c * rowSize + lane;
+            const float* const at = row + c * size + lane;
             const Vector response =
-                hn::MulAdd(above, hn::Load(d, at + 3 * rowSize), hn::Mul(below, hn::Load(d, at)));
-            addTo(sums[3 + c], hn::Mul(azimuth, response), viewed.incident + c * rowSize + lane);
+                hn::MulAdd(above, hn::Load(d, at + 3 * size), hn::Mul(below, hn::Load(d, at)));
+            addTo(sums[3 + c], response, turn(viewed.incident + c * receivers.rowSize));
         }
     }
 }
@@ -270,9 +297,9 @@ void reflect(const ReflectView& receivers, const Vec3f& eye, const float* incide
         const auto firstView = std::min(static_cast<std::int32_t>(position),
                                         static_cast<std::int32_t>(lobe.viewCount) - 2);
         radiance[r] = reflectReceiver(
-            receivers,
-            {lobe, views.azimuths[inBlock], incident + r * receivers.incidentSize,
-             static_cast<std::size_t>(firstView), position - static_cast<float>(firstView)});
+            receivers, {lobe, views.cosines[inBlock], views.sines[inBlock],
+                        incident + r * receivers.incidentSize, static_cast<std::size_t>(firstView),
+                        position - static_cast<float>(firstView)});
     }
 }
 

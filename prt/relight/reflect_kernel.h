@@ -18,8 +18,8 @@ enum class LobeKind : std::uint8_t {
     other,  ///< of a BRDF of its own
 };
 
-/// What a receiver reflects: rows of coefficients for each view of a table, azimuth 0, every row
-/// written out for m and −m and padded with zeros.
+/// What a receiver reflects: rows of coefficients for each view of a table, which at azimuth 0 are
+/// of m ≥ 0 alone, in the order of incidentIndex and padded with zeros.
 struct ReceiverLobe {
     LobeKind kind = LobeKind::gltf;
     std::uint32_t viewCount = 0;
@@ -28,31 +28,26 @@ struct ReceiverLobe {
     const float* rows = nullptr;
     float levelShare = 0.0f;  ///< of the level above
     float metallic = 0.0f;
-    const float* arriving = nullptr;  ///< of a split one: white light, a padded row
+    const float* arriving = nullptr;  ///< of a split one: white light, as incident radiance
 };
 
 /// Receivers as the kernel sees them.
 struct ReflectView {
-    int bandCount = 0;                       ///< of incident radiance
-    std::size_t rowSize = 0;                 ///< padded
-    const float* places = nullptr;           ///< [block][position, normal][16]
-    const ReceiverLobe* lobes = nullptr;     ///< of each receiver
-    const float* diffuse = nullptr;          ///< [view]: rows of a layered Lambert lobe
-    const float* open = nullptr;             ///< a row: white light as it would arrive unshadowed
-    const std::int32_t* azimuths = nullptr;  ///< a row: azimuthIndex
-    std::size_t incidentSize = 0;            ///< floats a receiver
+    int bandCount = 0;                     ///< of incident radiance
+    std::size_t rowSize = 0;               ///< of incident radiance, padded
+    std::size_t uprightSize = 0;           ///< of the coefficients of m ≥ 0, padded
+    const float* places = nullptr;         ///< [block][position, normal][16]
+    const ReceiverLobe* lobes = nullptr;   ///< of each receiver
+    const float* diffuse = nullptr;        ///< [view]: rows of a layered Lambert lobe
+    const float* open = nullptr;           ///< a row: white light as it would arrive unshadowed
+    const std::int32_t* orders = nullptr;  ///< a row: m
+    std::size_t incidentSize = 0;          ///< floats a receiver
     bool hasBounced = false;  ///< behind all incident radiance stands that which has bounced
 };
 
-/// Where the azimuth's factor of coefficient (l, m) stands: cos 0, cos φ, … cos (n−1)φ, and then
-/// sin φ, …
-constexpr std::int32_t azimuthIndex(int bandCount, int m) {
-    return m >= 0 ? m : bandCount - 1 - m;
-}
-
 /// Writes what receivers from the first on, the first of a block, send to the eye.
 ///
-/// @param incident  [receiver][channel][padded row], and again of what has bounced
+/// @param incident  [receiver][channel][incidentIndex], and again of what has bounced
 /// @param ahead     memory that will be read next, asked for between one receiver and another
 void reflectIncident(const ReflectView& receivers, const Vec3f& eye, const float* incident,
                      std::span<const std::byte> ahead, std::span<ExitRadiance> radiance);
