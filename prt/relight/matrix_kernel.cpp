@@ -17,6 +17,11 @@ namespace {
 constexpr std::size_t kLanes = kIncidentLanes;
 constexpr std::size_t kLightRow = 3 * kLanes;
 
+/// So far ahead of the product grey matrices are asked for. The hardware, which looks ahead by
+/// itself, stops at each page's end; with coloured ones, whose product takes less time than reading
+/// them, asking more gains nothing.
+constexpr std::size_t kAheadBytes = std::size_t{8} << 10;
+
 /// Where the results of a block go.
 struct GroupResult {
     std::size_t matrixStride = 0;  ///< floats of incident radiance
@@ -72,6 +77,7 @@ HWY_NOINLINE const Stored* multiplyGrey(const Stored* numbers, const float* ligh
                                         std::size_t columnCount, const GroupResult& result) {
     const FloatTag d;
     constexpr std::size_t kTogether = vectorsTogether(kWidth);
+    constexpr std::size_t kColumnBytes = kTogether * kLanes * sizeof(Stored);
     for (std::size_t first = 0; first < kWidth; first += kTogether) {
         for (std::size_t lane = 0; lane < kLanes; lane += hn::Lanes(d)) {
             const Stored* column = numbers + lane;
@@ -81,6 +87,7 @@ HWY_NOINLINE const Stored* multiplyGrey(const Stored* numbers, const float* ligh
                 for (std::size_t v = 0; v < kTogether; ++v)
                     sums[c][v] = hn::Load(d, lightRow + c * kLanes);
             for (std::size_t j = 0; j < columnCount; ++j) {
+                askFor(reinterpret_cast<const std::byte*>(column) + kAheadBytes, kColumnBytes);
                 lightRow += kLightRow;
                 const Vector red = hn::Load(d, lightRow);
                 const Vector green = hn::Load(d, lightRow + kLanes);

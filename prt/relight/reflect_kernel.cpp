@@ -275,13 +275,6 @@ HWY_INLINE ExitRadiance reflectReceiver(const ReflectView& receivers, const View
             totals[7] > 0.0f ? std::clamp(totals[6] / totals[7], 0.0f, 1.0f) : 0.0f};
 }
 
-/// Asks for memory in the core's larger cache, so that it is there when what is being read stays.
-HWY_INLINE void askFor(std::span<const std::byte> memory) {
-    constexpr std::size_t kLineBytes = 64;
-    for (std::size_t at = 0; at < memory.size(); at += kLineBytes)
-        __builtin_prefetch(memory.data() + at, 0, 2);
-}
-
 void reflect(const ReflectView& receivers, const Vec3f& eye, const float* incident,
              std::span<const std::byte> ahead, std::span<ExitRadiance> radiance) {
     // More than that is not there any sooner.
@@ -291,7 +284,7 @@ void reflect(const ReflectView& receivers, const Vec3f& eye, const float* incide
     for (std::size_t r = 0; r < radiance.size(); ++r) {
         const std::size_t inBlock = r % kBlock;
         if (inBlock == 0) placeViews(receivers.places + 6 * r, eye, receivers.bandCount, views);
-        askFor(ahead.subspan(inBlock * askedBytes, askedBytes));
+        askFor(ahead.data() + inBlock * askedBytes, askedBytes);
         const ReceiverLobe& lobe = receivers.lobes[r];
         const float position = views.positions[inBlock] * static_cast<float>(lobe.viewCount - 1);
         const auto firstView = std::min(static_cast<std::int32_t>(position),

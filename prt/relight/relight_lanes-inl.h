@@ -13,6 +13,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "prt/relight/relight_kernel.h"
@@ -29,6 +30,13 @@ using Vector = hn::Vec<FloatTag>;
 struct RgbVector {
     Vector red, green, blue;
 };
+
+/// Asks for memory in the core's larger cache, so that it is there when what is being read stays.
+HWY_INLINE void askFor(const std::byte* memory, std::size_t byteCount) {
+    constexpr std::size_t kLineBytes = 64;
+    for (std::size_t at = 0; at < byteCount; at += kLineBytes)
+        __builtin_prefetch(memory + at, 0, 2);
+}
 
 HWY_INLINE Vector loadLanes(const float* stored) {
     return hn::Load(FloatTag(), stored);
