@@ -29,7 +29,7 @@ std::optional<double> findLeastRoughnessHeld(int bandCount, double maxError,
                                              const LobeQuadratureOptions& quadrature = {});
 
 /// A lobe that loses more than this is like a mirror to its bands. Copper of roughness ½ in 5 bands
-/// under a probe, 0.56, errs by half as much in its bands as split off; of 0.3, 0.90, by ten times
+/// under a probe, 0.56, errs by a third as much in its bands as split off; of 0.3, 0.90, by ten times
 /// as much.
 inline constexpr double kMostLobeError = 0.65;
 
