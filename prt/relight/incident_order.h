@@ -7,7 +7,7 @@ namespace prt {
 /// Incident radiance stands in vectors of as many numbers, the last filled up with zeros.
 inline constexpr std::size_t kIncidentLanes = 16;
 
-constexpr std::size_t padToLanes(std::size_t count) {
+constexpr std::size_t padToIncidentLanes(std::size_t count) {
     return (count + kIncidentLanes - 1) / kIncidentLanes * kIncidentLanes;
 }
 
@@ -26,12 +26,12 @@ constexpr std::size_t incidentIndex(int bandCount, int l, int m) {
 
 /// Numbers of those of m ≥ 0, padded.
 constexpr std::size_t uprightRowSize(int bandCount) {
-    return padToLanes(static_cast<std::size_t>(bandCount) + pairCount(bandCount));
+    return padToIncidentLanes(static_cast<std::size_t>(bandCount) + pairCount(bandCount));
 }
 
 /// Numbers of all, padded so that there is something behind by as many as there are pairs.
 constexpr std::size_t incidentRowSize(int bandCount) {
-    return padToLanes(pairCount(bandCount) + uprightRowSize(bandCount));
+    return padToIncidentLanes(pairCount(bandCount) + uprightRowSize(bandCount));
 }
 
 }  // namespace prt
