@@ -68,10 +68,19 @@ TEST_P(AssetDamageOfEncoding, BytesAfterTheEndAreRefused) {
     }
 }
 
+/// Sanitizers are slow: a flipped bit at a time with them, all changes of a byte without.
+unsigned nextChange(unsigned change) {
+#if defined(__SANITIZE_ADDRESS__)
+    return 2 * change;
+#else
+    return change + 1;
+#endif
+}
+
 TEST_P(AssetDamageOfEncoding, EveryChangeOfAByteOfTheBinaryChunkIsRefused) {
     std::vector<std::byte> bytes = makeSmallAssetBytes(GetParam());
     for (std::size_t i = test::findBinaryChunk(bytes); i < bytes.size(); ++i)
-        for (unsigned change = 1; change < 256; ++change) {
+        for (unsigned change = 1; change < 256; change = nextChange(change)) {
             bytes[i] ^= static_cast<std::byte>(change);
             ASSERT_TRUE(refusalOf(bytes)) << "byte " << i << ", change " << change;
             bytes[i] ^= static_cast<std::byte>(change);
