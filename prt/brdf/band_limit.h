@@ -29,8 +29,8 @@ std::optional<double> findLeastRoughnessHeld(int bandCount, double maxError,
                                              const LobeQuadratureOptions& quadrature = {});
 
 /// A lobe that loses more than this is like a mirror to its bands. Copper of roughness ½ in 5 bands
-/// under a probe, 0.56, errs by a third as much in its bands as split off; of 0.3, 0.90, by ten times
-/// as much.
+/// under a probe, 0.56, errs by a third as much in its bands as split off; of 0.3, 0.90, by ten
+/// times as much.
 inline constexpr double kMostLobeError = 0.65;
 
 /// The least roughness that is shown with n bands, what is smoother being split off: with an error
