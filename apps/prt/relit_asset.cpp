@@ -62,13 +62,6 @@ Asset readPreparedAsset(const std::string& path, const ImageLimits& limits, Stag
     return asset;
 }
 
-Transport fullestTransport(const CompressedTransfer& transfer) {
-    Transport fullest = Transport::unshadowed;
-    for (const CompressedLayer& layer : transfer.layers)
-        fullest = std::max(fullest, layer.transport);
-    return fullest;
-}
-
 ShownTransport chooseShown(const Asset& asset, const std::string& path,
                            std::optional<ShownTransport> asked, const GivenBrdfs& brdfs) {
     const ShownTransport shown = asked.value_or(fullestShown(asset.transfer));
@@ -113,9 +106,13 @@ std::vector<ExitRadiance> AssetRelighter::relight(ShownTransport shown, const Li
     // The receivers of an asset, and of what its normals tell, are its vertices.
     std::vector<ExitRadiance> exit(asset_.scene.vertexCount());
     if (isGlossy(shown)) {
-        constexpr std::size_t kChunk = 32 * kGlossyPartSize;
+        // One part a thread: each makes ready for the light, which with clusters is most of the
+        // work.
+        const auto threadCount = static_cast<std::size_t>(resolveThreadCount(threadCount_));
+        const std::size_t chunk =
+            (exit.size() / threadCount / kGlossyPartSize + 1) * kGlossyPartSize;
         const GlossyRelighter& relighter = glossyRelighter(shown);
-        parallelFor(exit.size(), {threadCount_, kChunk}, [&](std::size_t begin, std::size_t end) {
+        parallelFor(exit.size(), {threadCount_, chunk}, [&](std::size_t begin, std::size_t end) {
             relighter.relight(lighting, eye, begin, std::span(exit).subspan(begin, end - begin));
         });
         return exit;

@@ -21,9 +21,6 @@ namespace prt::cli {
 /// @param limits  of its textures
 Asset readPreparedAsset(const std::string& path, const ImageLimits& limits, StageLog& log);
 
-/// The last of the layers that it was baked with.
-Transport fullestTransport(const CompressedTransfer& transfer);
-
 /// What materials are made of instead of what their file says: one a material, or none at all.
 using GivenBrdfs = std::vector<std::optional<Brdf>>;
 
