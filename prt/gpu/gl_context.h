@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace prt {
+
+/// An OpenGL 4.3 core context without a display or a window, through EGL. All else of this module
+/// works in the context that is current on its thread, of this class or of a window.
+class GlContext {
+  public:
+    /// Current on this thread from here on. Takes the first of the machine's devices that has
+    /// OpenGL 4.3, or else a rasteriser on the CPU.
+    ///
+    /// @throws Error  unsupported where EGL or OpenGL 4.3 is missing
+    GlContext();
+    /// Whatever was made in the context must have gone before.
+    ~GlContext();
+    GlContext(const GlContext&) = delete;
+    GlContext& operator=(const GlContext&) = delete;
+
+    /// @throws Error  unsupported if the driver refuses
+    void makeCurrent() const;
+
+    /// The driver's names of itself and its version.
+    const std::string& description() const { return description_; }
+
+  private:
+    struct Handles;
+    std::unique_ptr<Handles> handles_;
+    std::string description_;
+};
+
+}  // namespace prt

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "prt/gpu/gl_name.h"
+
+namespace prt {
+
+/// A text of shaders/, whose first line is its #version.
+struct ShaderText {
+    std::string_view name;  ///< "shaders/relight.vert"
+    std::string_view text;
+};
+
+/// Those of the library, which carries them in itself. @param name  one that exists
+ShaderText findShader(std::string_view name);
+
+/// A program of two shaders.
+///
+/// @param definitions  lines of #define for both, behind their first lines
+/// @throws Error       unsupported, with the shader's name and what the driver says first of it
+GlName linkProgram(const ShaderText& vertexShader, const ShaderText& fragmentShader,
+                   const std::string& definitions = {});
+
+}  // namespace prt

@@ -1,0 +1,78 @@
+#version 430 core
+// Relights the receiver of each vertex, and places the vertex in the picture.
+//
+//   B(x) = Σ_i T_i(x) L_i                     of vectors                   [Sloan02]
+//   B(x) = R_k0 + Σ_p w_p(x) R_kp             of clusters                  [Sloan03]
+//
+// STORED_BYTES  of a number: 4 is a float, 2 and 1 are integers as they stand
+// CLUSTERED     1: a row is its cluster k and weights w_p; 0: coefficients, [channel][i]
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 uvSets;  // two of them
+layout(location = 2) in vec4 color;
+
+layout(location = 0) uniform mat4 clipFromEyeSpace;  // world axes, origin at the eye
+layout(location = 1) uniform vec3 eye;
+layout(location = 2) uniform uint receiverCount;
+
+// Numbers of all receivers in panels of four columns: [panel][receiver][4].
+layout(std430, binding = 0) readonly buffer Transfer { uint words[]; };
+layout(std430, binding = 1) readonly buffer Receivers { uint receiverOfVertex[]; };
+
+#if CLUSTERED
+layout(std430, binding = 2) readonly buffer Products { vec4 products[]; };           // R_kp
+layout(std430, binding = 3) readonly buffer FirstProducts { uint firstProducts[]; };  // of k; the count
+#else
+// A column a channel: what it makes of a panel's four numbers, as they are stored.
+layout(std430, binding = 2) readonly buffer Light { mat3x4 light[]; };
+layout(location = 3) uniform uint panelCount;
+layout(location = 4) uniform vec3 biasRadiance;  // what the columns' biases make
+#endif
+
+out vec3 radiance;
+out vec4 uvs;
+out vec4 vertexColor;
+
+vec4 readNumbers(uint panel, uint receiver) {
+    uint place = panel * receiverCount + receiver;
+#if STORED_BYTES == 4
+    return vec4(uintBitsToFloat(words[4u * place]), uintBitsToFloat(words[4u * place + 1u]),
+                uintBitsToFloat(words[4u * place + 2u]), uintBitsToFloat(words[4u * place + 3u]));
+#elif STORED_BYTES == 2
+    uint low = words[2u * place];
+    uint high = words[2u * place + 1u];
+    return vec4(low & 0xffffu, low >> 16, high & 0xffffu, high >> 16);
+#else
+    uint word = words[place];
+    return vec4(word & 0xffu, (word >> 8) & 0xffu, (word >> 16) & 0xffu, word >> 24);
+#endif
+}
+
+#if CLUSTERED
+vec3 relight(uint receiver) {
+    vec4 numbers = readNumbers(0u, receiver);
+    uint cluster = uint(numbers.x);
+    uint first = firstProducts[cluster];
+    uint componentCount = firstProducts[cluster + 1u] - first - 1u;
+    vec3 sum = products[first].rgb;
+    for (uint p = 1u; p <= componentCount; ++p) {
+        if (p % 4u == 0u) numbers = readNumbers(p / 4u, receiver);
+        sum += numbers[p % 4u] * products[first + p].rgb;
+    }
+    return sum;
+}
+#else
+vec3 relight(uint receiver) {
+    vec3 sum = biasRadiance;
+    for (uint panel = 0u; panel < panelCount; ++panel)
+        sum += readNumbers(panel, receiver) * light[panel];
+    return sum;
+}
+#endif
+
+void main() {
+    radiance = relight(receiverOfVertex[gl_VertexID]);
+    uvs = uvSets;
+    vertexColor = color;
+    gl_Position = clipFromEyeSpace * vec4(position - eye, 1.0);
+}

@@ -1,0 +1,26 @@
+#version 430 core
+// What a surface point sends to the eye: base colour times B, and what it emits. Linear, unclamped.
+
+in vec3 radiance;
+in vec4 uvs;
+in vec4 vertexColor;
+
+layout(location = 16) uniform vec4 baseColorFactor;
+layout(location = 17) uniform vec3 emissiveFactor;
+layout(location = 18) uniform ivec2 textureUvSets;  // of base colour and emission: 0 or 1
+layout(location = 19) uniform float alphaCutoff;    // below it there is no surface
+layout(binding = 0) uniform sampler2D baseColorTexture;
+layout(binding = 1) uniform sampler2D emissiveTexture;
+
+layout(location = 0) out vec4 exitRadiance;
+
+vec4 sampleTexture(sampler2D image, int uvSet) {
+    return texture(image, uvSet == 1 ? uvs.zw : uvs.xy);
+}
+
+void main() {
+    vec4 baseColor = baseColorFactor * vertexColor * sampleTexture(baseColorTexture, textureUvSets.x);
+    if (baseColor.a < alphaCutoff) discard;
+    vec3 emitted = emissiveFactor * sampleTexture(emissiveTexture, textureUvSets.y).rgb;
+    exitRadiance = vec4(clamp(baseColor.rgb, 0.0, 1.0) * radiance + emitted, 1.0);
+}
