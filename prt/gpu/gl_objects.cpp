@@ -1,0 +1,37 @@
+#include "prt/gpu/gl_objects.h"
+
+#include <algorithm>
+
+#include <epoxy/gl.h>
+
+#include "prt/base/error.h"
+
+namespace prt {
+
+void checkGpuMemory(const std::string& what) {
+    bool isMemoryOut = false;
+    for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError())
+        isMemoryOut |= error == GL_OUT_OF_MEMORY;
+    if (isMemoryOut)
+        throw Error(ErrorCode::outOfMemory, "the graphics card has no memory left for " + what);
+}
+
+GlName makeBuffer(std::size_t byteCount, const std::string& what) {
+    unsigned name = 0;
+    glGenBuffers(1, &name);
+    GlName buffer(name, [](unsigned given) { glDeleteBuffers(1, &given); });
+    glBindBuffer(GL_COPY_WRITE_BUFFER, name);
+    glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(std::max<std::size_t>(byteCount, 1)),
+                 nullptr, GL_STATIC_DRAW);
+    checkGpuMemory(what);
+    return buffer;
+}
+
+void writeBuffer(const GlName& buffer, std::size_t offset, std::span<const std::byte> bytes) {
+    if (bytes.empty()) return;
+    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
+    glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset),
+                    static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
+}  // namespace prt

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "prt/gpu/gl_name.h"
+
+namespace prt {
+
+/// A buffer of so many bytes, at least one, uninitialised.
+///
+/// @param what    how an error calls it
+/// @throws Error  outOfMemory
+GlName makeBuffer(std::size_t byteCount, const std::string& what);
+
+/// Writes to bytes [offset, offset + bytes.size()) of a buffer.
+void writeBuffer(const GlName& buffer, std::size_t offset, std::span<const std::byte> bytes);
+
+/// A buffer that holds these values.
+template <class Value>
+GlName makeBuffer(std::span<const Value> values, const std::string& what) {
+    GlName buffer = makeBuffer(values.size_bytes(), what);
+    writeBuffer(buffer, 0, std::as_bytes(values));
+    return buffer;
+}
+
+/// @throws Error  outOfMemory if OpenGL had no memory for something since the last call
+void checkGpuMemory(const std::string& what);
+
+}  // namespace prt

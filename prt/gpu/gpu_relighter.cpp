@@ -1,0 +1,194 @@
+// Bibliography
+//   [Sloan02]  Precomputed radiance transfer: B is an inner product of light and transfer
+//   [Sloan03]  Clustered principal components for precomputed radiance transfer
+#include "prt/gpu/gpu_relighter.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <epoxy/gl.h>
+
+#include "prt/base/assert.h"
+#include "prt/base/error.h"
+#include "prt/gpu/gl_objects.h"
+#include "prt/gpu/panel_light.h"
+#include "prt/gpu/shader_interface.h"
+#include "prt/gpu/shader_program.h"
+#include "prt/relight/require_layer.h"
+#include "prt/relight/vector_blocks.h"
+
+namespace prt {
+namespace {
+
+const CompressedLayer& requireVectors(const CompressedTransfer& transfer, Transport transport) {
+    const CompressedLayer& layer = requireLayer(transfer, transport);
+    if (isGlossy(transport))
+        throw Error(ErrorCode::unsupported, "transfer matrices are not relit on the graphics card",
+                    {}, "choose a transport of vectors, or draw on the CPU");
+    PRT_ASSERT(isComplete(transfer, layer), "transfer for each receiver");
+    return layer;
+}
+
+void requireBuffers(std::size_t largestBytes) {
+    GLint blockCount = 0;
+    glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blockCount);
+    if (blockCount < buffers::kCount)
+        throw Error(ErrorCode::unsupported,
+                    "the graphics driver lets vertex shaders read " + std::to_string(blockCount) +
+                        " buffers, not the " + std::to_string(buffers::kCount) +
+                        " that relighting takes",
+                    {}, "draw on the CPU");
+    GLint64 mostBytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &mostBytes);
+    if (largestBytes > static_cast<std::size_t>(mostBytes))
+        throw Error(ErrorCode::limitExceeded,
+                    "the transfer takes " + std::to_string(largestBytes) +
+                        " bytes, more than the " + std::to_string(mostBytes) +
+                        " that the graphics driver lets a shader read",
+                    {}, "compress the asset, or draw on the CPU");
+}
+
+std::size_t panelBytes(const CoefficientTable& table) {
+    return table.rowCount() * CoefficientTable::kPanelWidth * table.elementBytes();
+}
+
+/// Panel after panel, as they are: one at a time is in memory.
+GlName uploadTable(const CoefficientTable& table) {
+    GlName buffer = makeBuffer(table.panelCount() * panelBytes(table), "transfer");
+    for (std::size_t panel = 0; panel < table.panelCount(); ++panel) {
+        writeBuffer(buffer, panel * panelBytes(table), table.panel(panel));
+        table.releaseMemory();
+    }
+    return buffer;
+}
+
+GlName linkFor(const CompressedLayer& layer) {
+    const std::string definitions = "#define STORED_BYTES " +
+                                    std::to_string(bytesPerCoefficient(layer.table.encoding)) +
+                                    "\n#define CLUSTERED " + (layer.bases ? "1" : "0") + "\n";
+    return linkProgram(findShader("shaders/relight.vert"), findShader("shaders/surface.frag"),
+                       definitions);
+}
+
+/// A product as the shader has it, in 16 bytes.
+struct PaddedProduct {
+    Vec3f radiance{0.0f, 0.0f, 0.0f};
+    float padding = 0.0f;
+};
+
+}  // namespace
+
+struct GpuRelighter::Content {
+    /// What a light is multiplied with on the CPU, of a layer with clusters.
+    struct Clusters {
+        VectorBlocks vectors;
+        std::vector<std::size_t> firstVectors;
+        GlName firstProducts;
+    };
+
+    int bandCount = 0;
+    std::size_t vertexCount = 0;
+    TransferEncoding encoding = TransferEncoding::float32;
+    std::vector<StoredRange> ranges;  ///< of the columns, without clusters
+    std::optional<Clusters> clusters;
+    GlName program;
+    GlName transfer;
+    GlName receivers;
+    GlName light;  ///< or products
+
+    Content(const CompressedTransfer& asset, const CompressedLayer& layer)
+        : bandCount(asset.bandCount),
+          vertexCount(asset.receiverOfVertex.size()),
+          encoding(layer.table.encoding) {
+        const CoefficientTable& table = layer.table.numbers;
+        requireBuffers(table.panelCount() * panelBytes(table));
+        program = linkFor(layer);
+        glProgramUniform1ui(program.get(), uniforms::kReceiverCount,
+                            static_cast<GLuint>(table.rowCount()));
+        transfer = uploadTable(table);
+        receivers = makeBuffer(std::span(asset.receiverOfVertex), "transfer");
+        if (layer.bases) {
+            addClusters(asset.bandCount, layer);
+        } else {
+            ranges = storedRanges(layer.table);
+            light = makeBuffer(foldLight(ranges, bandCount, {}).factors.size() * sizeof(float),
+                               "light");
+        }
+    }
+
+    void addClusters(int layerBandCount, const CompressedLayer& layer) {
+        const ClusterBases& bases = *layer.bases;
+        std::vector<std::size_t> firsts = bases.firstVectors();
+        const std::vector<std::uint32_t> shaderFirsts(firsts.begin(), firsts.end());
+        clusters.emplace(Clusters{VectorBlocks(bases.vectors, layerBandCount, layer.channelCount),
+                                  std::move(firsts),
+                                  makeBuffer(std::span(shaderFirsts), "clusters")});
+        const std::size_t byteCount = clusters->vectors.vectorCount() * sizeof(PaddedProduct);
+        requireBuffers(byteCount);
+        light = makeBuffer(byteCount, "clusters");
+    }
+
+    /// R_kp, and for the components divided by the stored number that stands for 1.
+    std::vector<PaddedProduct> multiplyClusters(const Lighting& lighting) const {
+        std::vector<Vec3f> products(clusters->vectors.vectorCount());
+        clusters->vectors.relight(lighting, 0, ResultStore::cached, products);
+        const auto fraction = static_cast<float>(1.0 / largestStored(encoding));
+        std::vector<PaddedProduct> padded(products.size());
+        for (std::size_t k = 0; k + 1 < clusters->firstVectors.size(); ++k) {
+            const std::size_t first = clusters->firstVectors[k];
+            for (std::size_t i = first; i < clusters->firstVectors[k + 1]; ++i)
+                padded[i].radiance = products[i] * (i == first ? 1.0f : fraction);
+        }
+        return padded;
+    }
+
+    void relight(const Lighting& lighting) {
+        PRT_ASSERT(lighting.bandCount <= bandCount, "light has no more bands than transfer");
+        if (clusters) {
+            const std::vector<PaddedProduct> products = multiplyClusters(lighting);
+            writeBuffer(light, 0, std::as_bytes(std::span(products)));
+            return;
+        }
+        const PanelLight folded = foldLight(ranges, bandCount, lighting);
+        writeBuffer(light, 0, std::as_bytes(std::span(folded.factors)));
+        glProgramUniform1ui(program.get(), uniforms::kPanelCount,
+                            static_cast<GLuint>(folded.panelCount));
+        glProgramUniform3f(program.get(), uniforms::kBiasRadiance, folded.biasRadiance.x,
+                           folded.biasRadiance.y, folded.biasRadiance.z);
+    }
+};
+
+GpuRelighter::GpuRelighter(const CompressedTransfer& transfer, Transport transport)
+    : content_(std::make_unique<Content>(transfer, requireVectors(transfer, transport))) {
+    relight(Lighting(1));
+}
+
+GpuRelighter::~GpuRelighter() = default;
+GpuRelighter::GpuRelighter(GpuRelighter&&) noexcept = default;
+GpuRelighter& GpuRelighter::operator=(GpuRelighter&&) noexcept = default;
+
+std::size_t GpuRelighter::vertexCount() const {
+    return content_->vertexCount;
+}
+
+int GpuRelighter::bandCount() const {
+    return content_->bandCount;
+}
+
+void GpuRelighter::relight(const Lighting& lighting) {
+    content_->relight(lighting);
+}
+
+void GpuRelighter::use() const {
+    const auto bind = [](unsigned place, const GlName& buffer) {
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, place, buffer.get());
+    };
+    glUseProgram(content_->program.get());
+    bind(buffers::kTransfer, content_->transfer);
+    bind(buffers::kReceivers, content_->receivers);
+    bind(buffers::kLight, content_->light);
+    if (content_->clusters) bind(buffers::kFirstProducts, content_->clusters->firstProducts);
+}
+
+}  // namespace prt

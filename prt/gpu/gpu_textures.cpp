@@ -1,0 +1,85 @@
+#include "prt/gpu/gpu_textures.h"
+
+#include <string>
+
+#include <epoxy/gl.h>
+
+#include "prt/base/error.h"
+#include "prt/gpu/gl_objects.h"
+
+namespace prt {
+namespace {
+
+constexpr std::array<GLint, 3> kWraps = {GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE};
+constexpr std::array<GLint, 2> kFilters = {GL_NEAREST, GL_LINEAR};
+
+std::size_t samplerIndex(std::size_t wrapU, std::size_t wrapV, std::size_t filter) {
+    return (wrapU * kWraps.size() + wrapV) * kFilters.size() + filter;
+}
+
+GlName makeSampler(GLint wrapU, GLint wrapV, GLint filter) {
+    unsigned name = 0;
+    glGenSamplers(1, &name);
+    GlName sampler(name, [](unsigned given) { glDeleteSamplers(1, &given); });
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_S, wrapU);
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_T, wrapV);
+    glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, filter);
+    glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, filter);
+    return sampler;
+}
+
+/// Texels are decoded before they are blended, as the sRGB formats promise.
+GlName uploadImage(const Rgba8Image& image, const std::string& what) {
+    GLint mostTexels = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &mostTexels);
+    if (image.width > mostTexels || image.height > mostTexels)
+        throw Error(ErrorCode::limitExceeded,
+                    "texture " + what + " is " + std::to_string(image.width) + " × " +
+                        std::to_string(image.height) +
+                        " texels, and the graphics driver takes no more than " +
+                        std::to_string(mostTexels) + " along a side",
+                    {}, "make it smaller, or draw on the CPU");
+    unsigned name = 0;
+    glGenTextures(1, &name);
+    GlName texture(name, [](unsigned given) { glDeleteTextures(1, &given); });
+    glBindTexture(GL_TEXTURE_2D, name);
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, image.width, image.height);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                    image.pixels.data());
+    checkGpuMemory("texture " + what);
+    return texture;
+}
+
+}  // namespace
+
+GpuTextures::GpuTextures(const Scene& scene)
+    : images_(scene.images.size()), white_(uploadImage(Rgba8Image(1, 1), "white")) {
+    for (std::size_t u = 0; u < kWraps.size(); ++u) {
+        for (std::size_t v = 0; v < kWraps.size(); ++v) {
+            for (std::size_t filter = 0; filter < kFilters.size(); ++filter)
+                samplers_[samplerIndex(u, v, filter)] =
+                    makeSampler(kWraps[u], kWraps[v], kFilters[filter]);
+        }
+    }
+    for (const Material& material : scene.materials) {
+        for (const auto* use : {&material.baseColorTexture, &material.emissiveTexture}) {
+            if (!*use || images_[(*use)->image].get() != 0) continue;
+            const TextureImage& image = scene.images[(*use)->image];
+            if (!image.pixels.pixels.empty())
+                images_[(*use)->image] = uploadImage(image.pixels, image.name);
+        }
+    }
+}
+
+void GpuTextures::bind(unsigned unit, const std::optional<TextureUse>& texture) const {
+    const TextureUse use = texture.value_or(TextureUse());
+    const bool isImage = texture && images_[use.image].get() != 0;
+    const std::size_t sampler =
+        samplerIndex(static_cast<std::size_t>(use.wrapU), static_cast<std::size_t>(use.wrapV),
+                     static_cast<std::size_t>(use.filter));
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, isImage ? images_[use.image].get() : white_.get());
+    glBindSampler(unit, samplers_[sampler].get());
+}
+
+}  // namespace prt

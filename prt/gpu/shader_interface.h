@@ -1,0 +1,38 @@
+#pragma once
+
+namespace prt {
+
+/// Where the shaders have what they are given: the locations and bindings of shaders/relight.vert
+/// and shaders/surface.frag.
+namespace uniforms {
+inline constexpr int kClipFromEyeSpace = 0;
+inline constexpr int kEye = 1;
+inline constexpr int kReceiverCount = 2;
+inline constexpr int kPanelCount = 3;
+inline constexpr int kBiasRadiance = 4;
+inline constexpr int kBaseColorFactor = 16;
+inline constexpr int kEmissiveFactor = 17;
+inline constexpr int kTextureUvSets = 18;
+inline constexpr int kAlphaCutoff = 19;
+}  // namespace uniforms
+
+namespace attributes {
+inline constexpr unsigned kPosition = 0;
+inline constexpr unsigned kUvSets = 1;
+inline constexpr unsigned kColor = 2;
+}  // namespace attributes
+
+namespace buffers {
+inline constexpr unsigned kTransfer = 0;
+inline constexpr unsigned kReceivers = 1;
+inline constexpr unsigned kLight = 2;  ///< or products
+inline constexpr unsigned kFirstProducts = 3;
+inline constexpr int kCount = 4;
+}  // namespace buffers
+
+namespace textures {
+inline constexpr unsigned kBaseColor = 0;
+inline constexpr unsigned kEmission = 1;
+}  // namespace textures
+
+}  // namespace prt

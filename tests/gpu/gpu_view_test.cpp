@@ -1,0 +1,358 @@
+#include "prt/gpu/gpu_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "prt/base/random.h"
+#include "prt/relight/relighter.h"
+#include "prt/scene/surface_color.h"
+#include "prt/trace/ray_scene.h"
+#include "tests/gpu/gl_test.h"
+#include "tests/support/clustered_layers.h"
+#include "tests/support/scenes.h"
+
+namespace prt {
+namespace {
+
+constexpr int kBandCount = 4;
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+
+/// Of linear values, for a peak of 1. What remains is rounding, of vertices to a 256th of a pixel
+/// first of all.
+constexpr double kLeastPsnr = 50.0;
+
+Rgba8Image makeRandomTexels(int width, int height, RandomStream& random) {
+    Rgba8Image image(width, height);
+    for (Rgba8& texel : image.pixels) {
+        const std::uint64_t bits = random.nextBits();
+        texel = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8),
+                 static_cast<std::uint8_t>(bits >> 16), static_cast<std::uint8_t>(bits >> 24)};
+    }
+    return image;
+}
+
+/// The room of other tests, with all that materials can say: textures of every wrap and filter on
+/// both sets of coordinates, colours of vertices, cut-outs, emission; a sheet seen from behind and
+/// a wall that must not be.
+Scene makeDecoratedRoom() {
+    RandomStream random(7, 1);
+    Scene scene =
+        test::makeRoomAround({{makeSphere({0.3f, 0.4f, 0.4f}, 0.4f, 24), {0.9f, 0.9f, 0.5f}},
+                              {test::makeQuad({-0.9f, -0.4f, 1.1f}, {-0.9f, 0.3f, 1.4f},
+                                              {0.1f, 0.3f, 1.5f}, {0.1f, -0.4f, 1.2f}),
+                               {1.0f, 1.0f, 1.0f},
+                               true},
+                              {test::makeQuad({1.0f, -1.0f, 0.0f}, {-1.0f, -1.0f, 0.0f},
+                                              {-1.0f, -1.0f, 1.9f}, {1.0f, -1.0f, 1.9f})}});
+    for (int i = 0; i < 3; ++i)
+        scene.images.push_back(
+            {"noise", "image/png", {}, makeRandomTexels(5 + 3 * i, 9 - 2 * i, random)});
+    for (Mesh& mesh : scene.meshes) {
+        for (const Vec3f& p : mesh.positions) {
+            mesh.uvSets[0].push_back(Vec2f(p.x + 0.3f * p.z, p.y - p.z) * 0.8f);
+            mesh.uvSets[1].push_back(Vec2f(p.y + p.z, p.z - p.x) * 0.7f);
+            mesh.colors.push_back({random.nextUnitFloat(), random.nextUnitFloat(),
+                                   random.nextUnitFloat(), 0.5f + 0.5f * random.nextUnitFloat()});
+        }
+    }
+    scene.meshes[1].colors.clear();
+    scene.meshes[2].uvSets[1].clear();  // its emissive texture is white then
+
+    std::vector<Material>& materials = scene.materials;
+    materials[0].baseColorTexture = TextureUse{0, 0};
+    materials[1].baseColorTexture =
+        TextureUse{1, 1, TextureWrap::mirroredRepeat, TextureWrap::clampToEdge};
+    materials[2].baseColorTexture = TextureUse{2, 0, TextureWrap::clampToEdge,
+                                               TextureWrap::mirroredRepeat, TextureFilter::nearest};
+    materials[2].emissiveTexture = TextureUse{0, 1};
+    materials[2].emissiveFactor = {0.1f, 0.2f, 0.0f};
+    materials[3].baseColorFactor = {2.5f, 1.5f, 0.9f, 1.0f};  // more than 1 reflects no more
+    materials[3].emissiveTexture = TextureUse{1, 1};
+    materials[3].emissiveFactor = {0.5f, 0.1f, 0.3f};
+    materials[4].baseColorTexture = TextureUse{0, 1};
+    materials[4].alphaMode = AlphaMode::mask;
+    materials[4].alphaCutoff = 0.35f;
+    std::ranges::reverse(scene.meshes);  // what is behind is drawn last
+    return scene;
+}
+
+/// Random numbers in every column: no vertex is like its neighbour.
+CompressedTransfer makeRandomTransfer(const Scene& scene, CompressedLayer layer) {
+    CompressedTransfer transfer;
+    transfer.bandCount = kBandCount;
+    transfer.receiverCount = layer.table.numbers.rowCount();
+    for (std::size_t vertex = 0; vertex < scene.vertexCount(); ++vertex)
+        transfer.receiverOfVertex.push_back(
+            static_cast<std::uint32_t>((7 * vertex + 3) % transfer.receiverCount));
+    transfer.layers.push_back(std::move(layer));
+    return transfer;
+}
+
+Lighting makeRandomLighting(int bandCount, std::uint64_t seed) {
+    RandomStream random(seed, 2);
+    Lighting lighting(bandCount);
+    for (Vec3d& coefficient : lighting.coefficients) {
+        for (int channel = 0; channel < 3; ++channel)
+            coefficient[channel] = 12.0 * random.nextUnitDouble() - 6.0;
+    }
+    return lighting;
+}
+
+/// Radiance through one place of the picture, by rays; and which triangle is there.
+class RayPicture {
+  public:
+    RayPicture(const Scene& scene, const CompressedTransfer& transfer, const Lighting& lighting,
+               const Camera& camera)
+        : scene_(scene), rays_(scene), camera_(camera), offsets_(vertexOffsets(scene)) {
+        const Relighter relighter(transfer, transfer.layers.front().transport);
+        std::vector<Vec3f> ofReceivers(transfer.receiverCount);
+        relighter.relight(lighting, ofReceivers);
+        for (const std::uint32_t receiver : transfer.receiverOfVertex)
+            radiance_.push_back(ofReceivers[receiver]);
+    }
+
+    struct Seen {
+        Hit hit;
+        Vec3f radiance{0.0f, 0.0f, 0.0f};
+    };
+
+    /// @param x, y  in pixels from the top left corner
+    Seen look(double x, double y) const {
+        const double pixel = 2.0 * std::tan(0.5 * camera_.verticalFovRadians) / kHeight;
+        const Vec3d right = Vec3d(camera_.forward).cross(Vec3d(camera_.up));
+        const Vec3d direction = Vec3d(camera_.forward) + right * ((x - 0.5 * kWidth) * pixel) +
+                                Vec3d(camera_.up) * ((0.5 * kHeight - y) * pixel);
+        Ray ray{camera_.eye, Vec3f(direction.normalized())};
+        Seen seen{rays_.intersect(ray)};
+        while (!seen.hit.escaped && seen.hit.backFace && !materialOf(seen.hit).doubleSided) {
+            ray.origin += ray.direction * (seen.hit.t * 1.0001f);
+            seen.hit = rays_.intersect(ray);
+        }
+        if (!seen.hit.escaped) {
+            const SurfacePoint& point = seen.hit.point;
+            const auto ofMesh = std::span<const Vec3f>(radiance_).subspan(offsets_[point.mesh]);
+            seen.radiance = evaluateAlbedo(scene_, point) *
+                                interpolateCorners(scene_.meshes[point.mesh], point, ofMesh) +
+                            evaluateEmission(scene_, point);
+        }
+        return seen;
+    }
+
+    /// What the middle of a pixel shows, if nothing has an edge within a 16th of a pixel.
+    std::optional<Vec3f> lookInside(int column, int row) const {
+        constexpr double kReach = 1.0 / 16.0;
+        constexpr float kJump = 0.05f;  // of a texel's edge or a cut-out's
+        const Seen middle = look(column + 0.5, row + 0.5);
+        for (const double dx : {-kReach, kReach}) {
+            for (const double dy : {-kReach, kReach}) {
+                const Seen beside = look(column + 0.5 + dx, row + 0.5 + dy);
+                if (beside.hit.escaped != middle.hit.escaped) return std::nullopt;
+                if (!middle.hit.escaped && (beside.hit.point.mesh != middle.hit.point.mesh ||
+                                            beside.hit.point.triangle != middle.hit.point.triangle))
+                    return std::nullopt;
+                if ((beside.radiance - middle.radiance).length() > kJump) return std::nullopt;
+            }
+        }
+        return middle.radiance;
+    }
+
+  private:
+    const Material& materialOf(const Hit& hit) const {
+        return scene_.materials[scene_.meshes[hit.point.mesh].material];
+    }
+
+    const Scene& scene_;
+    RayScene rays_;
+    Camera camera_;
+    std::vector<std::size_t> offsets_;
+    std::vector<Vec3f> radiance_;
+};
+
+struct Agreement {
+    double psnr = 0.0;
+    double insideShare = 0.0;  ///< of all pixels
+    double meanSquare = 0.0;   ///< of the picture by rays
+};
+
+Agreement compareWithRays(const Image& picture, const RayPicture& rays) {
+    double squares = 0.0, referenceSquares = 0.0;
+    int insideCount = 0;
+    for (int row = 0; row < picture.height; ++row) {
+        for (int column = 0; column < picture.width; ++column) {
+            const std::optional<Vec3f> expected = rays.lookInside(column, row);
+            if (!expected) continue;
+            squares += static_cast<double>((picture.at(column, row) - *expected).length2());
+            referenceSquares += static_cast<double>(expected->length2());
+            ++insideCount;
+        }
+    }
+    return {10.0 * std::log10(3.0 * insideCount / squares),
+            static_cast<double>(insideCount) / static_cast<double>(picture.pixels.size()),
+            referenceSquares / (3.0 * insideCount)};
+}
+
+/// From the open side of the room, down a little.
+const Camera kCamera{.name = {},
+                     .eye = {0.5f, -3.2f, 1.5f},
+                     .forward = Vec3f(-0.15f, 1.0f, -0.2f).normalized(),
+                     .up = Vec3f(-0.03f, 0.2f, 1.0225f).normalized(),
+                     .verticalFovRadians = 0.7f};
+
+class GpuView : public test::GlTest {
+  protected:
+    void expectSamePicture(const CompressedTransfer& transfer, const Lighting& lighting,
+                           const std::string& what, const Camera& camera = kCamera) {
+        GpuRelighter relighter(transfer, transfer.layers.front().transport);
+        relighter.relight(lighting);
+        const Image picture = renderGpuView(GpuScene(scene_), relighter, camera,
+                                            {.width = kWidth, .height = kHeight});
+        const Agreement agreement =
+            compareWithRays(picture, RayPicture(scene_, transfer, lighting, camera));
+        EXPECT_GE(agreement.psnr, kLeastPsnr) << what;
+        EXPECT_GE(agreement.insideShare, 0.6) << what;
+        EXPECT_GE(agreement.meanSquare, 0.005) << what;  // there is something to see
+    }
+
+    Scene scene_ = makeDecoratedRoom();
+};
+
+constexpr std::array kEncodings = {TransferEncoding::float32, TransferEncoding::unorm16,
+                                   TransferEncoding::unorm8};
+constexpr std::array kTransports = {Transport::shadowed, Transport::interreflected};
+
+TEST_F(GpuView, VectorsOfEveryEncodingGiveThePictureOfRays) {
+    for (const Transport transport : kTransports) {
+        for (const TransferEncoding encoding : kEncodings) {
+            RandomStream random(3, 5);
+            CompressedLayer layer = test::makeLayerKind(transport, kBandCount);
+            layer.table = test::makeRandomTable(encoding, scene_.vertexCount() + 5,
+                                                coefficientsPerReceiver(kBandCount, layer), random);
+            expectSamePicture(
+                makeRandomTransfer(scene_, layer), makeRandomLighting(kBandCount, 4),
+                std::string(encodingName(encoding)) + " " + std::string(transportName(transport)));
+        }
+    }
+}
+
+TEST_F(GpuView, ClustersOfEveryEncodingGiveThePictureOfRays) {
+    for (const Transport transport : kTransports) {
+        for (const TransferEncoding encoding : kEncodings) {
+            const CompressedLayer layer =
+                test::makeClusteredLayer(transport, kBandCount, scene_.vertexCount() + 5,
+                                         {.weights = encoding, .componentCounts = {2, 0, 9, 4}});
+            expectSamePicture(makeRandomTransfer(scene_, layer), makeRandomLighting(kBandCount, 4),
+                              "clusters, " + std::string(encodingName(encoding)) + " " +
+                                  std::string(transportName(transport)));
+        }
+    }
+}
+
+TEST_F(GpuView, LightOfFewerBandsLeavesTheHigherOnesOut) {
+    for (const Transport transport : kTransports) {
+        RandomStream random(3, 6);
+        CompressedLayer layer = test::makeLayerKind(transport, kBandCount);
+        layer.table = test::makeRandomTable(TransferEncoding::unorm16, scene_.vertexCount(),
+                                            coefficientsPerReceiver(kBandCount, layer), random);
+        expectSamePicture(makeRandomTransfer(scene_, layer), makeRandomLighting(2, 8), "two bands");
+    }
+}
+
+CompressedTransfer makeFloatTransfer(const Scene& scene) {
+    RandomStream random(3, 5);
+    CompressedLayer layer = test::makeLayerKind(Transport::shadowed, kBandCount);
+    layer.table = test::makeRandomTable(TransferEncoding::float32, scene.vertexCount(),
+                                        coefficientsPerReceiver(kBandCount, layer), random);
+    return makeRandomTransfer(scene, layer);
+}
+
+TEST_F(GpuView, MoreSamplesComeCloserToTheMeanOfManyRays) {
+    const CompressedTransfer transfer = makeFloatTransfer(scene_);
+    const Lighting lighting = makeRandomLighting(kBandCount, 4);
+    GpuRelighter relighter(transfer, Transport::shadowed);
+    relighter.relight(lighting);
+    const GpuScene gpuScene(scene_);
+    const RayPicture rays(scene_, transfer, lighting, kCamera);
+    constexpr int kRaysPerAxis = 4;
+
+    std::array<double, 2> squares{};
+    const std::array pictures = {renderGpuView(gpuScene, relighter, kCamera, {kWidth, kHeight, 1}),
+                                 renderGpuView(gpuScene, relighter, kCamera, {kWidth, kHeight, 4})};
+    for (int row = 0; row < kHeight; ++row) {
+        for (int column = 0; column < kWidth; ++column) {
+            Vec3f mean(0.0f);
+            for (int i = 0; i < kRaysPerAxis * kRaysPerAxis; ++i)
+                mean += rays.look(column + (i % kRaysPerAxis + 0.5) / kRaysPerAxis,
+                                  row + (i / kRaysPerAxis + 0.5) / kRaysPerAxis)
+                            .radiance;
+            mean /= static_cast<float>(kRaysPerAxis * kRaysPerAxis);
+            for (std::size_t i = 0; i < pictures.size(); ++i)
+                squares[i] += static_cast<double>((pictures[i].at(column, row) - mean).length2());
+        }
+    }
+    EXPECT_LT(squares[1], 0.5 * squares[0]);
+}
+
+TEST_F(GpuView, SceneFarFromTheOriginIsDrawnAsSharply) {
+    const Vec3f offset(4096.0f, -2048.0f, 1024.0f);
+    scene_ = test::transformScene(scene_, Mat3d(), 1.0, offset);
+    Camera camera = kCamera;
+    camera.eye += offset;
+    const CompressedTransfer transfer = makeFloatTransfer(scene_);
+    expectSamePicture(transfer, makeRandomLighting(kBandCount, 4), "far away", camera);
+}
+
+TEST_F(GpuView, NothingIsDrawnOfAnEmptyScene) {
+    const Scene empty;
+    CompressedTransfer transfer;
+    transfer.bandCount = 1;
+    transfer.layers.push_back(test::makeLayerKind(Transport::shadowed, 1));
+    transfer.layers.back().table.numbers = CoefficientTable(0, 1, sizeof(float));
+    const Image picture = renderGpuView(
+        GpuScene(empty), GpuRelighter(transfer, Transport::shadowed), kCamera, {3, 2, 1});
+    EXPECT_EQ(picture.pixels, std::vector<Vec3f>(6, Vec3f(0.0f)));
+}
+
+/// The code of the error that this throws.
+template <class Action>
+std::optional<ErrorCode> findErrorCode(const Action& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.code();
+    }
+    return std::nullopt;
+}
+
+TEST_F(GpuView, WhatCannotBeDrawnIsRefused) {
+    const CompressedTransfer transfer = makeFloatTransfer(scene_);
+    const GpuRelighter relighter(transfer, Transport::shadowed);
+    const GpuScene gpuScene(scene_);
+    const auto render = [&](const GpuViewOptions& options, float fov) {
+        Camera camera = kCamera;
+        camera.verticalFovRadians = fov;
+        return findErrorCode([&] { renderGpuView(gpuScene, relighter, camera, options); });
+    };
+    EXPECT_EQ(render({8, 8, 1}, 1.0f), std::nullopt);
+    EXPECT_EQ(render({0, 8, 1}, 1.0f), ErrorCode::invalidOption);
+    EXPECT_EQ(render({8, 1 << 24, 1}, 1.0f), ErrorCode::invalidOption);
+    EXPECT_EQ(render({8, 8, 0}, 1.0f), ErrorCode::invalidOption);
+    EXPECT_EQ(render({8, 8, 4096}, 1.0f), ErrorCode::invalidOption);
+    EXPECT_EQ(render({8, 8, 1}, 0.0f), ErrorCode::invalidOption);
+    EXPECT_EQ(render({8, 8, 1}, 3.2f), ErrorCode::invalidOption);
+    EXPECT_EQ(findErrorCode([&] { GpuRelighter(transfer, Transport::unshadowed); }),
+              ErrorCode::invalidOption);
+
+    CompressedTransfer glossy = transfer;
+    glossy.layers.push_back(test::makeLayerKind(Transport::glossy, kBandCount));
+    EXPECT_EQ(findErrorCode([&] { GpuRelighter(glossy, Transport::glossy); }),
+              ErrorCode::unsupported);
+}
+
+}  // namespace
+}  // namespace prt
