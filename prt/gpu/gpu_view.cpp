@@ -4,21 +4,20 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include <epoxy/gl.h>
 
 #include "prt/base/assert.h"
 #include "prt/base/error.h"
-#include "prt/gpu/gl_objects.h"
 #include "prt/gpu/shader_interface.h"
 
 namespace prt {
 namespace {
 
-/// The nearest that is seen, relative to the farthest: enough for 32 bits of depth to tell surfaces
-/// apart that are a hundred-thousandth of their distance from one another.
-constexpr double kNearestShare = 1e-4;
+/// The least distance that is drawn, relative to the largest. Depths between 0 and 1 are held to
+/// 2⁻²⁴, which tells the farthest surfaces apart if they are 2⁻²⁴ / 10⁻³ of that distance, a
+/// 16000th, from one another.
+constexpr double kNearestShare = 1e-3;
 
 /// More than the rounding of depths.
 constexpr double kDepthMargin = 1e-3;
@@ -66,79 +65,13 @@ std::array<float, 16> makeClipMatrix(const Bounds& bounds, const Camera& camera,
     return matrix;
 }
 
-void checkRange(int value, int maximum, const char* what) {
-    if (value >= 1 && value <= maximum) return;
-    throw Error(ErrorCode::invalidOption, std::string(what) + " is " + std::to_string(value) +
-                                              ", not between 1 and " + std::to_string(maximum));
-}
-
-int readLimit(GLenum name) {
-    GLint value = 0;
-    glGetIntegerv(name, &value);
-    return value;
-}
-
-void checkView(const Camera& camera, const GpuViewOptions& options) {
-    std::array<GLint, 2> viewport{};
-    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
-    const int side = readLimit(GL_MAX_RENDERBUFFER_SIZE);
-    checkRange(options.width, std::min(side, viewport[0]), "the width");
-    checkRange(options.height, std::min(side, viewport[1]), "the height");
-    checkRange(options.sampleCount, readLimit(GL_MAX_SAMPLES), "the number of samples");
-    const float fov = camera.verticalFovRadians;
+void checkFieldOfView(float fov) {
     if (!(fov > 0.0f && fov < std::numbers::pi_v<float>))
         throw Error(ErrorCode::invalidOption, "the field of view is not between 0 and 180 degrees");
 }
 
-/// A place to draw to, in floats.
-class FloatTarget {
-  public:
-    /// @param sampleCount  0: one, that can be read
-    FloatTarget(int width, int height, int sampleCount) {
-        unsigned name = 0;
-        glGenFramebuffers(1, &name);
-        framebuffer_ = GlName(name, [](unsigned given) { glDeleteFramebuffers(1, &given); });
-        glBindFramebuffer(GL_FRAMEBUFFER, name);
-        color_ = attach(GL_COLOR_ATTACHMENT0, GL_RGBA32F, width, height, sampleCount);
-        depth_ = attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, width, height, sampleCount);
-        checkGpuMemory("the picture");
-        if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-            throw Error(ErrorCode::unsupported,
-                        "the graphics driver does not draw to floating-point pictures of " +
-                            std::to_string(std::max(sampleCount, 1)) + " samples a pixel");
-    }
-
-    unsigned framebuffer() const { return framebuffer_.get(); }
-
-  private:
-    static GlName attach(GLenum place, GLenum format, int width, int height, int sampleCount) {
-        unsigned name = 0;
-        glGenRenderbuffers(1, &name);
-        GlName buffer(name, [](unsigned given) { glDeleteRenderbuffers(1, &given); });
-        glBindRenderbuffer(GL_RENDERBUFFER, name);
-        glRenderbufferStorageMultisample(GL_RENDERBUFFER, sampleCount, format, width, height);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, name);
-        return buffer;
-    }
-
-    GlName framebuffer_;
-    GlName color_;
-    GlName depth_;
-};
-
-/// The picture of the framebuffer that is bound for reading, whose lowest row comes first.
-Image readPicture(int width, int height) {
-    Image image(width, height);
-    glReadPixels(0, 0, width, height, GL_RGB, GL_FLOAT, image.pixels.data());
-    for (int y = 0; y < height / 2; ++y)
-        std::swap_ranges(&image.at(0, y), &image.at(0, y) + width, &image.at(0, height - 1 - y));
-    return image;
-}
-
-}  // namespace
-
-void drawGpuScene(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
-                  double aspectRatio) {
+void drawScene(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
+               double aspectRatio) {
     PRT_ASSERT(scene.vertexCount() == relighter.vertexCount(), "transfer of this scene");
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
@@ -152,27 +85,17 @@ void drawGpuScene(const GpuScene& scene, const GpuRelighter& relighter, const Ca
     scene.drawTriangles();
 }
 
-Image renderGpuView(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
-                    const GpuViewOptions& options) {
-    checkView(camera, options);
-    const bool isMultisampled = options.sampleCount > 1;
-    const FloatTarget target(options.width, options.height,
-                             isMultisampled ? options.sampleCount : 0);
-    glViewport(0, 0, options.width, options.height);
-    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}  // namespace
+
+void drawGpuView(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
+                 const GpuTarget& target) {
+    checkFieldOfView(camera.verticalFovRadians);
+    target.beginDrawing();
     glEnable(GL_SAMPLE_SHADING);
     glMinSampleShading(1.0f);
-    drawGpuScene(scene, relighter, camera, static_cast<double>(options.width) / options.height);
+    drawScene(scene, relighter, camera, static_cast<double>(target.width()) / target.height());
     glDisable(GL_SAMPLE_SHADING);
-    if (!isMultisampled) return readPicture(options.width, options.height);
-
-    const FloatTarget resolved(options.width, options.height, 0);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer());
-    glBlitFramebuffer(0, 0, options.width, options.height, 0, 0, options.width, options.height,
-                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved.framebuffer());
-    return readPicture(options.width, options.height);
+    target.finishDrawing();
 }
 
 }  // namespace prt

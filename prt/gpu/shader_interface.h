@@ -3,7 +3,7 @@
 namespace prt {
 
 /// Where the shaders have what they are given: the locations and bindings of shaders/relight.vert
-/// and shaders/surface.frag.
+/// and surface.frag, and of display.frag.
 namespace uniforms {
 inline constexpr int kClipFromEyeSpace = 0;
 inline constexpr int kEye = 1;
@@ -14,6 +14,9 @@ inline constexpr int kBaseColorFactor = 16;
 inline constexpr int kEmissiveFactor = 17;
 inline constexpr int kTextureUvSets = 18;
 inline constexpr int kAlphaCutoff = 19;
+
+inline constexpr int kExposure = 0;
+inline constexpr int kIsAces = 1;
 }  // namespace uniforms
 
 namespace attributes {

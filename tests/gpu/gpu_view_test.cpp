@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "prt/base/random.h"
+#include "prt/gpu/gpu_display.h"
 #include "prt/relight/relighter.h"
 #include "prt/scene/surface_color.h"
 #include "prt/trace/ray_scene.h"
@@ -204,14 +207,20 @@ const Camera kCamera{.name = {},
                      .up = Vec3f(-0.03f, 0.2f, 1.0225f).normalized(),
                      .verticalFovRadians = 0.7f};
 
+Image renderGpuView(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
+                    int width, int height, int sampleCount = 1) {
+    const GpuTarget target(width, height, sampleCount);
+    drawGpuView(scene, relighter, camera, target);
+    return target.readRadiance();
+}
+
 class GpuView : public test::GlTest {
   protected:
     void expectSamePicture(const CompressedTransfer& transfer, const Lighting& lighting,
                            const std::string& what, const Camera& camera = kCamera) {
         GpuRelighter relighter(transfer, transfer.layers.front().transport);
         relighter.relight(lighting);
-        const Image picture = renderGpuView(GpuScene(scene_), relighter, camera,
-                                            {.width = kWidth, .height = kHeight});
+        const Image picture = renderGpuView(GpuScene(scene_), relighter, camera, kWidth, kHeight);
         const Agreement agreement =
             compareWithRays(picture, RayPicture(scene_, transfer, lighting, camera));
         EXPECT_GE(agreement.psnr, kLeastPsnr) << what;
@@ -281,8 +290,8 @@ TEST_F(GpuView, MoreSamplesComeCloserToTheMeanOfManyRays) {
     constexpr int kRaysPerAxis = 4;
 
     std::array<double, 2> squares{};
-    const std::array pictures = {renderGpuView(gpuScene, relighter, kCamera, {kWidth, kHeight, 1}),
-                                 renderGpuView(gpuScene, relighter, kCamera, {kWidth, kHeight, 4})};
+    const std::array pictures = {renderGpuView(gpuScene, relighter, kCamera, kWidth, kHeight),
+                                 renderGpuView(gpuScene, relighter, kCamera, kWidth, kHeight, 4)};
     for (int row = 0; row < kHeight; ++row) {
         for (int column = 0; column < kWidth; ++column) {
             Vec3f mean(0.0f);
@@ -313,9 +322,39 @@ TEST_F(GpuView, NothingIsDrawnOfAnEmptyScene) {
     transfer.bandCount = 1;
     transfer.layers.push_back(test::makeLayerKind(Transport::shadowed, 1));
     transfer.layers.back().table.numbers = CoefficientTable(0, 1, sizeof(float));
-    const Image picture = renderGpuView(
-        GpuScene(empty), GpuRelighter(transfer, Transport::shadowed), kCamera, {3, 2, 1});
+    const Image picture =
+        renderGpuView(GpuScene(empty), GpuRelighter(transfer, Transport::shadowed), kCamera, 3, 2);
     EXPECT_EQ(picture.pixels, std::vector<Vec3f>(6, Vec3f(0.0f)));
+}
+
+TEST_F(GpuView, ScreenShowsTheCodeValuesOfEncodeForDisplay) {
+    const CompressedTransfer transfer = makeFloatTransfer(scene_);
+    GpuRelighter relighter(transfer, Transport::shadowed);
+    relighter.relight(makeRandomLighting(kBandCount, 4));
+    const GpuTarget radiance(kWidth, kHeight);
+    drawGpuView(GpuScene(scene_), relighter, kCamera, radiance);
+    const GpuTarget screen(kWidth, kHeight, 1, TargetFormat::codeValues);
+
+    constexpr int kRounding = 1;  // of a code value that is nearly between two
+    std::array<bool, 256> isShown{};
+    for (const ToneCurve curve : {ToneCurve::none, ToneCurve::aces}) {
+        for (const float exposureStops : {0.0f, -1.5f, 3.0f}) {
+            const DisplayOptions options{exposureStops, curve};
+            const Rgba8Image expected = encodeForDisplay(radiance.readRadiance(), options);
+            screen.beginDrawing();
+            GpuDisplay().draw(radiance, options);
+            const Rgba8Image shown = screen.readCodeValues();
+            for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
+                const Rgba8 &a = shown.pixels[i], &b = expected.pixels[i];
+                ASSERT_LE(std::abs(a.red - b.red), kRounding) << i;
+                ASSERT_LE(std::abs(a.green - b.green), kRounding) << i;
+                ASSERT_LE(std::abs(a.blue - b.blue), kRounding) << i;
+                ASSERT_EQ(a.alpha, b.alpha) << i;
+                isShown[b.green] = true;
+            }
+        }
+    }
+    EXPECT_GE(std::ranges::count(isShown, true), 200);  // dark and bright have been compared
 }
 
 /// The code of the error that this throws.
@@ -333,18 +372,19 @@ TEST_F(GpuView, WhatCannotBeDrawnIsRefused) {
     const CompressedTransfer transfer = makeFloatTransfer(scene_);
     const GpuRelighter relighter(transfer, Transport::shadowed);
     const GpuScene gpuScene(scene_);
-    const auto render = [&](const GpuViewOptions& options, float fov) {
+    const auto render = [&](int width, int height, int sampleCount, float fov) {
         Camera camera = kCamera;
         camera.verticalFovRadians = fov;
-        return findErrorCode([&] { renderGpuView(gpuScene, relighter, camera, options); });
+        return findErrorCode(
+            [&] { renderGpuView(gpuScene, relighter, camera, width, height, sampleCount); });
     };
-    EXPECT_EQ(render({8, 8, 1}, 1.0f), std::nullopt);
-    EXPECT_EQ(render({0, 8, 1}, 1.0f), ErrorCode::invalidOption);
-    EXPECT_EQ(render({8, 1 << 24, 1}, 1.0f), ErrorCode::invalidOption);
-    EXPECT_EQ(render({8, 8, 0}, 1.0f), ErrorCode::invalidOption);
-    EXPECT_EQ(render({8, 8, 4096}, 1.0f), ErrorCode::invalidOption);
-    EXPECT_EQ(render({8, 8, 1}, 0.0f), ErrorCode::invalidOption);
-    EXPECT_EQ(render({8, 8, 1}, 3.2f), ErrorCode::invalidOption);
+    EXPECT_EQ(render(8, 8, 1, 1.0f), std::nullopt);
+    EXPECT_EQ(render(0, 8, 1, 1.0f), ErrorCode::invalidOption);
+    EXPECT_EQ(render(8, 1 << 24, 1, 1.0f), ErrorCode::invalidOption);
+    EXPECT_EQ(render(8, 8, 0, 1.0f), ErrorCode::invalidOption);
+    EXPECT_EQ(render(8, 8, 4096, 1.0f), ErrorCode::invalidOption);
+    EXPECT_EQ(render(8, 8, 1, 0.0f), ErrorCode::invalidOption);
+    EXPECT_EQ(render(8, 8, 1, 3.2f), ErrorCode::invalidOption);
     EXPECT_EQ(findErrorCode([&] { GpuRelighter(transfer, Transport::unshadowed); }),
               ErrorCode::invalidOption);
 

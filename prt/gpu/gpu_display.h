@@ -1,0 +1,24 @@
+#pragma once
+
+#include "prt/gpu/gl_name.h"
+#include "prt/gpu/gpu_target.h"
+#include "prt/image/tone_curve.h"
+
+namespace prt {
+
+/// Shows linear radiance as pictures for the screen, as encodeForDisplay makes them to rounding.
+class GpuDisplay {
+  public:
+    GpuDisplay();
+
+    /// Draws a picture over the viewport of the framebuffer that is bound, pixel for pixel where
+    /// they are of the same size. Leaves depth test, culling and blending off.
+    void draw(const GpuTarget& radiance, const DisplayOptions& options = {}) const;
+
+  private:
+    GlName program_;
+    GlName layout_;   ///< of no attributes
+    GlName sampler_;  ///< the nearest pixel
+};
+
+}  // namespace prt

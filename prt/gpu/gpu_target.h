@@ -1,0 +1,56 @@
+#pragma once
+
+#include "prt/gpu/gl_name.h"
+#include "prt/image/image.h"
+
+namespace prt {
+
+/// How many numbers a channel of a picture can hold.
+enum class TargetFormat {
+    linearFloat,  ///< 32-bit floats
+    codeValues,   ///< 8 bits
+};
+
+/// A picture in the memory of the graphics card, to be drawn to, read back and shown.
+class GpuTarget {
+  public:
+    /// @param sampleCount  a pixel; the driver may take more
+    /// @throws Error       invalidOption for a size or sample count beyond the driver's,
+    ///                     unsupported if it does not draw so, outOfMemory
+    GpuTarget(int width, int height, int sampleCount = 1,
+              TargetFormat format = TargetFormat::linearFloat);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+
+    /// What is drawn from here on comes to all of this picture, in place of all that was there.
+    void beginDrawing() const;
+    /// Makes one value of the samples of each pixel: before it is read or shown.
+    void finishDrawing() const;
+
+    /// Of floats.
+    Image readRadiance() const;
+    /// Of code values.
+    Rgba8Image readCodeValues() const;
+
+    /// OpenGL's name of the texture that holds the picture, its lowest row first.
+    unsigned texture() const { return single_.color.get(); }
+
+  private:
+    struct Layers {
+        GlName color;
+        GlName depth;
+        GlName framebuffer;
+    };
+    Layers makeSingle() const;
+    Layers makeMultisampled(int sampleCount) const;
+    void complete(Layers& layers) const;
+
+    int width_;
+    int height_;
+    unsigned glFormat_;
+    Layers single_;
+    Layers multisampled_;  ///< empty where a pixel has one sample
+};
+
+}  // namespace prt
