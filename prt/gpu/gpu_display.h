@@ -1,7 +1,7 @@
 #pragma once
 
-#include "prt/gpu/gl_name.h"
 #include "prt/gpu/gpu_target.h"
+#include "prt/gpu/screen_pass.h"
 #include "prt/image/tone_curve.h"
 
 namespace prt {
@@ -16,9 +16,7 @@ class GpuDisplay {
     void draw(const GpuTarget& radiance, const DisplayOptions& options = {}) const;
 
   private:
-    GlName program_;
-    GlName layout_;   ///< of no attributes
-    GlName sampler_;  ///< the nearest pixel
+    ScreenPass pass_;
 };
 
 }  // namespace prt

@@ -41,20 +41,17 @@ DepthRange findDepths(const Bounds& bounds, const Camera& camera, double cornerC
 
 /// OpenGL's clip space, of points relative to the eye along the world's axes; column after column.
 std::array<float, 16> makeClipMatrix(const Bounds& bounds, const Camera& camera,
-                                     double aspectRatio) {
-    const double halfHeight = std::tan(0.5 * static_cast<double>(camera.verticalFovRadians));
-    const double halfWidth = halfHeight * aspectRatio;
+                                     const ViewFrame& view) {
     const double cornerCosine =
-        1.0 / std::sqrt(1.0 + halfHeight * halfHeight + halfWidth * halfWidth);
+        1.0 / std::sqrt(1.0 + view.rightward.length2() + view.upward.length2());
     const DepthRange depths = findDepths(bounds, camera, cornerCosine);
     const double length = depths.farthest - depths.nearest;
     const double depthScale = (depths.farthest + depths.nearest) / length;
     const double depthOffset = -2.0 * depths.farthest * depths.nearest / length;
 
-    const Vec3d forward(camera.forward);
-    const Vec3d up(camera.up);
-    const std::array<Vec3d, 4> rows = {forward.cross(up) / halfWidth, up / halfHeight,
-                                       forward * depthScale, forward};
+    const std::array<Vec3d, 4> rows = {view.rightward / view.rightward.length2(),
+                                       view.upward / view.upward.length2(),
+                                       view.forward * depthScale, view.forward};
     std::array<float, 16> matrix{};
     for (std::size_t row = 0; row < 4; ++row) {
         for (int column = 0; column < 3; ++column)
@@ -71,7 +68,7 @@ void checkFieldOfView(float fov) {
 }
 
 void drawScene(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
-               double aspectRatio) {
+               const ViewFrame& view) {
     PRT_ASSERT(scene.vertexCount() == relighter.vertexCount(), "transfer of this scene");
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
@@ -80,7 +77,7 @@ void drawScene(const GpuScene& scene, const GpuRelighter& relighter, const Camer
     glFrontFace(GL_CCW);
     relighter.use();
     glUniformMatrix4fv(uniforms::kClipFromEyeSpace, 1, GL_FALSE,
-                       makeClipMatrix(scene.bounds(), camera, aspectRatio).data());
+                       makeClipMatrix(scene.bounds(), camera, view).data());
     glUniform3fv(uniforms::kEye, 1, &camera.eye.x);
     scene.drawTriangles();
 }
@@ -88,12 +85,15 @@ void drawScene(const GpuScene& scene, const GpuRelighter& relighter, const Camer
 }  // namespace
 
 void drawGpuView(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
-                 const GpuTarget& target) {
+                 const GpuTarget& target, const GpuViewOptions& options) {
     checkFieldOfView(camera.verticalFovRadians);
+    const ViewFrame view =
+        makeViewFrame(camera, static_cast<double>(target.width()) / target.height());
     target.beginDrawing();
     glEnable(GL_SAMPLE_SHADING);
     glMinSampleShading(1.0f);
-    drawScene(scene, relighter, camera, static_cast<double>(target.width()) / target.height());
+    if (options.background) options.background->draw(view, options.worldFromBackground);
+    drawScene(scene, relighter, camera, view);
     glDisable(GL_SAMPLE_SHADING);
     target.finishDrawing();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prt/gpu/gpu_background.h"
 #include "prt/gpu/gpu_relighter.h"
 #include "prt/gpu/gpu_scene.h"
 #include "prt/gpu/gpu_target.h"
@@ -7,8 +8,13 @@
 
 namespace prt {
 
-/// Draws a picture of a relit scene, as renderView makes it: linear radiance, unclamped, black
-/// where there is no surface. Differs: a pixel is what its centre shows, or the mean of so many
+struct GpuViewOptions {
+    const GpuBackground* background = nullptr;  ///< seen where no surface is; black without
+    Mat3d worldFromBackground{};                ///< a rotation: L(R⁻¹ω)
+};
+
+/// Draws a picture of a relit scene, as renderView makes it: linear radiance, unclamped.
+/// Differs: a pixel is what its centre shows, or the mean of so many
 /// places as the driver spreads over it.
 ///
 /// Leaves depth test, culling, program, textures and buffers as it needs them.
@@ -17,6 +23,6 @@ namespace prt {
 /// @param target            of floats
 /// @throws Error            invalidOption for a field of view out of range
 void drawGpuView(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
-                 const GpuTarget& target);
+                 const GpuTarget& target, const GpuViewOptions& options = {});
 
 }  // namespace prt

@@ -3,7 +3,7 @@
 namespace prt {
 
 /// Where the shaders have what they are given: the locations and bindings of shaders/relight.vert
-/// and surface.frag, and of display.frag.
+/// and surface.frag, and of display.frag and background.frag.
 namespace uniforms {
 inline constexpr int kClipFromEyeSpace = 0;
 inline constexpr int kEye = 1;
@@ -17,6 +17,10 @@ inline constexpr int kAlphaCutoff = 19;
 
 inline constexpr int kExposure = 0;
 inline constexpr int kIsAces = 1;
+
+inline constexpr int kForward = 0;
+inline constexpr int kRightward = 1;
+inline constexpr int kUpward = 2;
 }  // namespace uniforms
 
 namespace attributes {

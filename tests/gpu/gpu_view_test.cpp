@@ -120,18 +120,22 @@ class RayPicture {
             radiance_.push_back(ofReceivers[receiver]);
     }
 
+    /// @param x, y  in pixels from the top left corner
+    Vec3f directionThrough(double x, double y) const {
+        const double pixel = 2.0 * std::tan(0.5 * camera_.verticalFovRadians) / kHeight;
+        const Vec3d right = Vec3d(camera_.forward).cross(Vec3d(camera_.up));
+        const Vec3d direction = Vec3d(camera_.forward) + right * ((x - 0.5 * kWidth) * pixel) +
+                                Vec3d(camera_.up) * ((0.5 * kHeight - y) * pixel);
+        return Vec3f(direction.normalized());
+    }
+
     struct Seen {
         Hit hit;
         Vec3f radiance{0.0f, 0.0f, 0.0f};
     };
 
-    /// @param x, y  in pixels from the top left corner
     Seen look(double x, double y) const {
-        const double pixel = 2.0 * std::tan(0.5 * camera_.verticalFovRadians) / kHeight;
-        const Vec3d right = Vec3d(camera_.forward).cross(Vec3d(camera_.up));
-        const Vec3d direction = Vec3d(camera_.forward) + right * ((x - 0.5 * kWidth) * pixel) +
-                                Vec3d(camera_.up) * ((0.5 * kHeight - y) * pixel);
-        Ray ray{camera_.eye, Vec3f(direction.normalized())};
+        Ray ray{camera_.eye, directionThrough(x, y)};
         Seen seen{rays_.intersect(ray)};
         while (!seen.hit.escaped && seen.hit.backFace && !materialOf(seen.hit).doubleSided) {
             ray.origin += ray.direction * (seen.hit.t * 1.0001f);
@@ -355,6 +359,48 @@ TEST_F(GpuView, ScreenShowsTheCodeValuesOfEncodeForDisplay) {
         }
     }
     EXPECT_GE(std::ranges::count(isShown, true), 200);  // dark and bright have been compared
+}
+
+TEST_F(GpuView, BackgroundIsTheEnvironmentInTheDirectionOfEachPixel) {
+    RandomStream random(9, 3);
+    Environment environment{SphereMap::latLong, Image(32, 16)};
+    for (Vec3f& texel : environment.radiance.pixels)
+        texel = Vec3f(random.nextUnitFloat(), random.nextUnitFloat(), random.nextUnitFloat());
+    const GpuBackground background(environment);
+    const Mat3d rotation = rotationX(0.4) * rotationZ(2.0);
+    const CompressedTransfer transfer = makeFloatTransfer(scene_);
+    const GpuRelighter dark(transfer, Transport::shadowed);
+    const GpuScene gpuScene(scene_);
+    const GpuTarget target(kWidth, kHeight);
+    const Lighting none(1);
+
+    // Both poles and the seam are seen by one of these, past the room and above it.
+    int seenCount = 0;
+    double squares = 0.0;
+    for (const Vec3d& towards :
+         {Vec3d(0, 1, 0), Vec3d(0, -1, 0), Vec3d(-1, 0, 0), Vec3d(1, 0, 0)}) {
+        Camera camera = kCamera;
+        camera.forward = Vec3f(rotation * towards);
+        camera.up = Vec3f(rotation * Vec3d(0, 0, 1));
+        camera.verticalFovRadians = 1.6f;
+        drawGpuView(gpuScene, dark, camera, target, {&background, rotation});
+        const Image picture = target.readRadiance();
+        const RayPicture rays(scene_, transfer, none, camera);
+        for (int row = 0; row < kHeight; ++row) {
+            for (int column = 0; column < kWidth; ++column) {
+                if (!rays.look(column + 0.5, row + 0.5).hit.escaped ||
+                    !rays.lookInside(column, row))
+                    continue;
+                const Vec3f expected =
+                    lookUpRadiance(environment, rotation.transposed() *
+                                                    rays.directionThrough(column + 0.5, row + 0.5));
+                squares += static_cast<double>((picture.at(column, row) - expected).length2());
+                ++seenCount;
+            }
+        }
+    }
+    EXPECT_GE(seenCount, 2 * kWidth * kHeight);
+    EXPECT_GE(10.0 * std::log10(3.0 * seenCount / squares), kLeastPsnr);
 }
 
 /// The code of the error that this throws.

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cmath>
+
+#include "prt/math/vector.h"
+#include "prt/scene/scene.h"
+
+namespace prt {
+
+/// What a camera sees at unit distance along its axis, world space.
+struct ViewFrame {
+    Vec3d forward;    ///< unit, to the middle of the picture
+    Vec3d rightward;  ///< from there to its right edge
+    Vec3d upward;     ///< and to its upper one
+};
+
+/// @param aspectRatio  width over height
+inline ViewFrame makeViewFrame(const Camera& camera, double aspectRatio) {
+    const double halfHeight = std::tan(0.5 * static_cast<double>(camera.verticalFovRadians));
+    const Vec3d forward(camera.forward);
+    const Vec3d up(camera.up);
+    return {forward, forward.cross(up) * (halfHeight * aspectRatio), up * halfHeight};
+}
+
+}  // namespace prt
