@@ -4,6 +4,7 @@
 //   B(x) = Σ_i T_i(x) L_i                     of vectors                   [Sloan02]
 //   B(x) = R_k0 + Σ_p w_p(x) R_kp             of clusters                  [Sloan03]
 //
+// RELIT         1: what each vertex sends has been made elsewhere; 0: it is made here
 // STORED_BYTES  of a number: 4 is a float, 2 and 1 are integers as they stand
 // CLUSTERED     1: a row is its cluster k and weights w_p; 0: coefficients, [channel][i]
 
@@ -13,6 +14,14 @@ layout(location = 2) in vec4 color;
 
 layout(location = 0) uniform mat4 clipFromEyeSpace;  // world axes, origin at the eye
 layout(location = 1) uniform vec3 eye;
+
+#if RELIT
+struct ExitRadiance {
+    vec4 perBaseColor;  // as it is multiplied by base colour
+    vec4 constant;      // and as it is not
+};
+layout(std430, binding = 0) readonly buffer Relit { ExitRadiance relitVertices[]; };
+#else
 layout(location = 2) uniform uint receiverCount;
 
 // Numbers of all receivers in panels of four columns: [panel][receiver][4].
@@ -28,11 +37,14 @@ layout(std430, binding = 2) readonly buffer Light { mat3x4 light[]; };
 layout(location = 3) uniform uint panelCount;
 layout(location = 4) uniform vec3 biasRadiance;  // what the columns' biases make
 #endif
+#endif
 
-out vec3 radiance;
+out vec3 radiancePerBaseColor;
+out vec3 constantRadiance;
 out vec4 uvs;
 out vec4 vertexColor;
 
+#if !RELIT
 vec4 readNumbers(uint panel, uint receiver) {
     uint place = panel * receiverCount + receiver;
 #if STORED_BYTES == 4
@@ -69,9 +81,16 @@ vec3 relight(uint receiver) {
     return sum;
 }
 #endif
+#endif
 
 void main() {
-    radiance = relight(receiverOfVertex[gl_VertexID]);
+#if RELIT
+    radiancePerBaseColor = relitVertices[gl_VertexID].perBaseColor.rgb;
+    constantRadiance = relitVertices[gl_VertexID].constant.rgb;
+#else
+    radiancePerBaseColor = relight(receiverOfVertex[gl_VertexID]);
+    constantRadiance = vec3(0.0);
+#endif
     uvs = uvSets;
     vertexColor = color;
     gl_Position = clipFromEyeSpace * vec4(position - eye, 1.0);

@@ -1,7 +1,9 @@
 #version 430 core
-// What a surface point sends to the eye: base colour times B, and what it emits. Linear, unclamped.
+// What a surface point sends to the eye: base colour times B (or what shines beside it), and what it emits. Linear,
+// unclamped.
 
-in vec3 radiance;
+in vec3 radiancePerBaseColor;
+in vec3 constantRadiance;
 in vec4 uvs;
 in vec4 vertexColor;
 
@@ -22,5 +24,6 @@ void main() {
     vec4 baseColor = baseColorFactor * vertexColor * sampleTexture(baseColorTexture, textureUvSets.x);
     if (baseColor.a < alphaCutoff) discard;
     vec3 emitted = emissiveFactor * sampleTexture(emissiveTexture, textureUvSets.y).rgb;
-    exitRadiance = vec4(clamp(baseColor.rgb, 0.0, 1.0) * radiance + emitted, 1.0);
+    vec3 reflected = clamp(baseColor.rgb, 0.0, 1.0) * radiancePerBaseColor + constantRadiance;
+    exitRadiance = vec4(reflected + emitted, 1.0);
 }

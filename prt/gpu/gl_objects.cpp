@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 
 #include "prt/base/error.h"
+#include "prt/gpu/shader_interface.h"
 
 namespace prt {
 
@@ -32,6 +33,25 @@ void writeBuffer(const GlName& buffer, std::size_t offset, std::span<const std::
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
     glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset),
                     static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
+void requireShaderBuffers(std::size_t largestBytes) {
+    GLint blockCount = 0;
+    glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blockCount);
+    if (blockCount < buffers::kCount)
+        throw Error(ErrorCode::unsupported,
+                    "the graphics driver lets vertex shaders read " + std::to_string(blockCount) +
+                        " buffers, not the " + std::to_string(buffers::kCount) +
+                        " that relighting takes",
+                    {}, "draw on the CPU");
+    GLint64 mostBytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &mostBytes);
+    if (largestBytes > static_cast<std::size_t>(mostBytes))
+        throw Error(ErrorCode::limitExceeded,
+                    "the transfer takes " + std::to_string(largestBytes) +
+                        " bytes, more than the " + std::to_string(mostBytes) +
+                        " that the graphics driver lets a shader read",
+                    {}, "compress the asset, or draw on the CPU");
 }
 
 }  // namespace prt

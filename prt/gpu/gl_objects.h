@@ -28,4 +28,8 @@ GlName makeBuffer(std::span<const Value> values, const std::string& what) {
 /// @throws Error  outOfMemory if OpenGL had no memory for something since the last call
 void checkGpuMemory(const std::string& what);
 
+/// @param largestBytes  of a buffer that a vertex shader will read
+/// @throws Error        unsupported where vertex shaders read none, limitExceeded for one so large
+void requireShaderBuffers(std::size_t largestBytes);
+
 }  // namespace prt

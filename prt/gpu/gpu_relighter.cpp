@@ -30,25 +30,6 @@ const CompressedLayer& requireVectors(const CompressedTransfer& transfer, Transp
     return layer;
 }
 
-void requireBuffers(std::size_t largestBytes) {
-    GLint blockCount = 0;
-    glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blockCount);
-    if (blockCount < buffers::kCount)
-        throw Error(ErrorCode::unsupported,
-                    "the graphics driver lets vertex shaders read " + std::to_string(blockCount) +
-                        " buffers, not the " + std::to_string(buffers::kCount) +
-                        " that relighting takes",
-                    {}, "draw on the CPU");
-    GLint64 mostBytes = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &mostBytes);
-    if (largestBytes > static_cast<std::size_t>(mostBytes))
-        throw Error(ErrorCode::limitExceeded,
-                    "the transfer takes " + std::to_string(largestBytes) +
-                        " bytes, more than the " + std::to_string(mostBytes) +
-                        " that the graphics driver lets a shader read",
-                    {}, "compress the asset, or draw on the CPU");
-}
-
 std::size_t panelBytes(const CoefficientTable& table) {
     return table.rowCount() * CoefficientTable::kPanelWidth * table.elementBytes();
 }
@@ -64,7 +45,7 @@ GlName uploadTable(const CoefficientTable& table) {
 }
 
 GlName linkFor(const CompressedLayer& layer) {
-    const std::string definitions = "#define STORED_BYTES " +
+    const std::string definitions = "#define RELIT 0\n#define STORED_BYTES " +
                                     std::to_string(bytesPerCoefficient(layer.table.encoding)) +
                                     "\n#define CLUSTERED " + (layer.bases ? "1" : "0") + "\n";
     return linkProgram(findShader("shaders/relight.vert"), findShader("shaders/surface.frag"),
@@ -102,7 +83,7 @@ struct GpuRelighter::Content {
           vertexCount(asset.receiverOfVertex.size()),
           encoding(layer.table.encoding) {
         const CoefficientTable& table = layer.table.numbers;
-        requireBuffers(table.panelCount() * panelBytes(table));
+        requireShaderBuffers(table.panelCount() * panelBytes(table));
         program = linkFor(layer);
         glProgramUniform1ui(program.get(), uniforms::kReceiverCount,
                             static_cast<GLuint>(table.rowCount()));
@@ -125,7 +106,7 @@ struct GpuRelighter::Content {
                                   std::move(firsts),
                                   makeBuffer(std::span(shaderFirsts), "clusters")});
         const std::size_t byteCount = clusters->vectors.vectorCount() * sizeof(PaddedProduct);
-        requireBuffers(byteCount);
+        requireShaderBuffers(byteCount);
         light = makeBuffer(byteCount, "clusters");
     }
 

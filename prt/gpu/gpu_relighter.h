@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "prt/gpu/gpu_radiance.h"
 #include "prt/light/lighting.h"
 #include "prt/transfer/compressed_transfer.h"
 
@@ -15,7 +16,7 @@ namespace prt {
 /// is summed at each vertex that is drawn, from numbers as they are stored: their scale and bias
 /// go into the light. With clusters, R_kp = Σ_i b_kp,i L_i is made here once a light, and a vertex
 /// adds w_p(x) R_kp up [Sloan03]. Agrees with Relighter to rounding.
-class GpuRelighter {
+class GpuRelighter final : public GpuRadiance {
   public:
     /// In darkness.
     ///
@@ -25,11 +26,11 @@ class GpuRelighter {
     ///                   where vertex shaders cannot read buffers; limitExceeded for a layer larger
     ///                   than the driver lets a shader read; outOfMemory
     GpuRelighter(const CompressedTransfer& transfer, Transport transport);
-    ~GpuRelighter();
+    ~GpuRelighter() override;
     GpuRelighter(GpuRelighter&&) noexcept;
     GpuRelighter& operator=(GpuRelighter&&) noexcept;
 
-    std::size_t vertexCount() const;
+    std::size_t vertexCount() const override;
     int bandCount() const;
 
     /// Nothing but what the light makes goes to the card.
@@ -38,8 +39,7 @@ class GpuRelighter {
     ///                  transfer go unused
     void relight(const Lighting& lighting);
 
-    /// Makes the program of shaders/relight.vert and surface.frag current, with its buffers.
-    void use() const;
+    void use() const override;
 
   private:
     struct Content;

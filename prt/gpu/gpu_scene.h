@@ -20,7 +20,7 @@ class GpuScene {
     std::size_t vertexCount() const;
     const Bounds& bounds() const;
 
-    /// Draws all triangles with the program that is current, which is GpuRelighter's. One-sided
+    /// Draws all triangles with the program that is current, which is GpuRadiance's. One-sided
     /// surfaces are invisible from behind.
     void drawTriangles() const;
 

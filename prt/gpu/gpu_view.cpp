@@ -67,15 +67,15 @@ void checkFieldOfView(float fov) {
         throw Error(ErrorCode::invalidOption, "the field of view is not between 0 and 180 degrees");
 }
 
-void drawScene(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
+void drawScene(const GpuScene& scene, const GpuRadiance& radiance, const Camera& camera,
                const ViewFrame& view) {
-    PRT_ASSERT(scene.vertexCount() == relighter.vertexCount(), "transfer of this scene");
+    PRT_ASSERT(scene.vertexCount() == radiance.vertexCount(), "radiance of this scene");
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDisable(GL_BLEND);
     glCullFace(GL_BACK);
     glFrontFace(GL_CCW);
-    relighter.use();
+    radiance.use();
     glUniformMatrix4fv(uniforms::kClipFromEyeSpace, 1, GL_FALSE,
                        makeClipMatrix(scene.bounds(), camera, view).data());
     glUniform3fv(uniforms::kEye, 1, &camera.eye.x);
@@ -84,7 +84,7 @@ void drawScene(const GpuScene& scene, const GpuRelighter& relighter, const Camer
 
 }  // namespace
 
-void drawGpuView(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
+void drawGpuView(const GpuScene& scene, const GpuRadiance& radiance, const Camera& camera,
                  const GpuTarget& target, const GpuViewOptions& options) {
     checkFieldOfView(camera.verticalFovRadians);
     const ViewFrame view =
@@ -93,7 +93,7 @@ void drawGpuView(const GpuScene& scene, const GpuRelighter& relighter, const Cam
     glEnable(GL_SAMPLE_SHADING);
     glMinSampleShading(1.0f);
     if (options.background) options.background->draw(view, options.worldFromBackground);
-    drawScene(scene, relighter, camera, view);
+    drawScene(scene, radiance, camera, view);
     glDisable(GL_SAMPLE_SHADING);
     target.finishDrawing();
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "prt/gpu/gpu_background.h"
-#include "prt/gpu/gpu_relighter.h"
+#include "prt/gpu/gpu_radiance.h"
 #include "prt/gpu/gpu_scene.h"
 #include "prt/gpu/gpu_target.h"
 #include "prt/scene/scene.h"
@@ -19,10 +19,10 @@ struct GpuViewOptions {
 ///
 /// Leaves depth test, culling, program, textures and buffers as it needs them.
 ///
-/// @param scene, relighter  of the same vertices
-/// @param target            of floats
-/// @throws Error            invalidOption for a field of view out of range
-void drawGpuView(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
+/// @param scene, radiance  of the same vertices
+/// @param target           of floats
+/// @throws Error           invalidOption for a field of view out of range
+void drawGpuView(const GpuScene& scene, const GpuRadiance& radiance, const Camera& camera,
                  const GpuTarget& target, const GpuViewOptions& options = {});
 
 }  // namespace prt

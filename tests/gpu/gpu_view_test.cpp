@@ -12,6 +12,8 @@
 
 #include "prt/base/random.h"
 #include "prt/gpu/gpu_display.h"
+#include "prt/gpu/gpu_relighter.h"
+#include "prt/gpu/gpu_vertex_radiance.h"
 #include "prt/relight/relighter.h"
 #include "prt/scene/surface_color.h"
 #include "prt/trace/ray_scene.h"
@@ -107,18 +109,30 @@ Lighting makeRandomLighting(int bandCount, std::uint64_t seed) {
     return lighting;
 }
 
+std::vector<ExitRadiance> relightVertices(const CompressedTransfer& transfer,
+                                          const Lighting& lighting) {
+    std::vector<Vec3f> ofReceivers(transfer.receiverCount);
+    Relighter(transfer, transfer.layers.front().transport).relight(lighting, ofReceivers);
+    std::vector<ExitRadiance> ofVertices;
+    for (const std::uint32_t receiver : transfer.receiverOfVertex)
+        ofVertices.push_back({.perBaseColor = ofReceivers[receiver]});
+    return ofVertices;
+}
+
 /// Radiance through one place of the picture, by rays; and which triangle is there.
 class RayPicture {
   public:
+    /// @param radiance  of every vertex
+    RayPicture(const Scene& scene, std::vector<ExitRadiance> radiance, const Camera& camera)
+        : scene_(scene),
+          rays_(scene),
+          camera_(camera),
+          offsets_(vertexOffsets(scene)),
+          radiance_(std::move(radiance)) {}
+
     RayPicture(const Scene& scene, const CompressedTransfer& transfer, const Lighting& lighting,
                const Camera& camera)
-        : scene_(scene), rays_(scene), camera_(camera), offsets_(vertexOffsets(scene)) {
-        const Relighter relighter(transfer, transfer.layers.front().transport);
-        std::vector<Vec3f> ofReceivers(transfer.receiverCount);
-        relighter.relight(lighting, ofReceivers);
-        for (const std::uint32_t receiver : transfer.receiverOfVertex)
-            radiance_.push_back(ofReceivers[receiver]);
-    }
+        : RayPicture(scene, relightVertices(transfer, lighting), camera) {}
 
     /// @param x, y  in pixels from the top left corner
     Vec3f directionThrough(double x, double y) const {
@@ -143,10 +157,17 @@ class RayPicture {
         }
         if (!seen.hit.escaped) {
             const SurfacePoint& point = seen.hit.point;
-            const auto ofMesh = std::span<const Vec3f>(radiance_).subspan(offsets_[point.mesh]);
-            seen.radiance = evaluateAlbedo(scene_, point) *
-                                interpolateCorners(scene_.meshes[point.mesh], point, ofMesh) +
-                            evaluateEmission(scene_, point);
+            const std::uint32_t* corners = &scene_.meshes[point.mesh].indices[3 * point.triangle];
+            const auto interpolate = [&](Vec3f ExitRadiance::*member) {
+                const auto ofCorner = [&](int i) {
+                    return radiance_[offsets_[point.mesh] + corners[i]].*member;
+                };
+                return ofCorner(0) * (1.0f - point.u - point.v) + ofCorner(1) * point.u +
+                       ofCorner(2) * point.v;
+            };
+            seen.radiance =
+                evaluateAlbedo(scene_, point) * interpolate(&ExitRadiance::perBaseColor) +
+                interpolate(&ExitRadiance::constant) + evaluateEmission(scene_, point);
         }
         return seen;
     }
@@ -178,7 +199,7 @@ class RayPicture {
     RayScene rays_;
     Camera camera_;
     std::vector<std::size_t> offsets_;
-    std::vector<Vec3f> radiance_;
+    std::vector<ExitRadiance> radiance_;
 };
 
 struct Agreement {
@@ -211,10 +232,10 @@ const Camera kCamera{.name = {},
                      .up = Vec3f(-0.03f, 0.2f, 1.0225f).normalized(),
                      .verticalFovRadians = 0.7f};
 
-Image renderGpuView(const GpuScene& scene, const GpuRelighter& relighter, const Camera& camera,
+Image renderGpuView(const GpuScene& scene, const GpuRadiance& radiance, const Camera& camera,
                     int width, int height, int sampleCount = 1) {
     const GpuTarget target(width, height, sampleCount);
-    drawGpuView(scene, relighter, camera, target);
+    drawGpuView(scene, radiance, camera, target);
     return target.readRadiance();
 }
 
@@ -224,9 +245,14 @@ class GpuView : public test::GlTest {
                            const std::string& what, const Camera& camera = kCamera) {
         GpuRelighter relighter(transfer, transfer.layers.front().transport);
         relighter.relight(lighting);
-        const Image picture = renderGpuView(GpuScene(scene_), relighter, camera, kWidth, kHeight);
+        expectSamePicture(relighter, relightVertices(transfer, lighting), what, camera);
+    }
+
+    void expectSamePicture(const GpuRadiance& radiance, std::vector<ExitRadiance> expected,
+                           const std::string& what, const Camera& camera = kCamera) {
+        const Image picture = renderGpuView(GpuScene(scene_), radiance, camera, kWidth, kHeight);
         const Agreement agreement =
-            compareWithRays(picture, RayPicture(scene_, transfer, lighting, camera));
+            compareWithRays(picture, RayPicture(scene_, std::move(expected), camera));
         EXPECT_GE(agreement.psnr, kLeastPsnr) << what;
         EXPECT_GE(agreement.insideShare, 0.6) << what;
         EXPECT_GE(agreement.meanSquare, 0.005) << what;  // there is something to see
@@ -282,6 +308,27 @@ CompressedTransfer makeFloatTransfer(const Scene& scene) {
     layer.table = test::makeRandomTable(TransferEncoding::float32, scene.vertexCount(),
                                         coefficientsPerReceiver(kBandCount, layer), random);
     return makeRandomTransfer(scene, layer);
+}
+
+TEST_F(GpuView, RadianceMadeElsewhereIsShownWithAndWithoutBaseColor) {
+    RandomStream random(5, 5);
+    const auto draw = [&] {
+        return Vec3f(random.nextUnitFloat(), random.nextUnitFloat(), random.nextUnitFloat());
+    };
+    std::vector<ExitRadiance> both(scene_.vertexCount());
+    for (ExitRadiance& radiance : both)
+        radiance = {.perBaseColor = draw(), .constant = draw() * 0.3f};
+    GpuVertexRadiance radiance(scene_.vertexCount());
+    radiance.upload(both);
+    expectSamePicture(radiance, both, "both");
+
+    std::vector<Vec3f> diffuse;
+    for (ExitRadiance& vertex : both) {
+        diffuse.push_back(vertex.perBaseColor);
+        vertex.constant = Vec3f(0.0f);
+    }
+    radiance.upload(diffuse);
+    expectSamePicture(radiance, both, "diffuse");
 }
 
 TEST_F(GpuView, MoreSamplesComeCloserToTheMeanOfManyRays) {

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+
+#include "prt/gpu/gl_name.h"
+#include "prt/gpu/gpu_radiance.h"
+#include "prt/relight/exit_radiance.h"
+
+namespace prt {
+
+/// Radiance that has been made on the CPU: by Relighter, which is faster than a rasteriser on the
+/// same CPU would be, or of glossy materials towards an eye.
+class GpuVertexRadiance final : public GpuRadiance {
+  public:
+    /// Black.
+    /// @throws Error  as GpuRelighter
+    explicit GpuVertexRadiance(std::size_t vertexCount);
+
+    std::size_t vertexCount() const override { return vertexCount_; }
+    void use() const override;
+
+    /// @param vertexRadiance  B of every vertex, before base colour, W·sr⁻¹·m⁻²
+    void upload(std::span<const Vec3f> vertexRadiance);
+    /// Without the light that mirrorVisibility lets through.
+    /// @param vertexRadiance  of every vertex
+    void upload(std::span<const ExitRadiance> vertexRadiance);
+
+  private:
+    std::size_t vertexCount_;
+    GlName program_;
+    GlName buffer_;
+};
+
+}  // namespace prt
