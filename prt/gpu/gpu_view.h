@@ -13,9 +13,9 @@ struct GpuViewOptions {
     Mat3d worldFromBackground{};                ///< a rotation: L(R⁻¹ω)
 };
 
-/// Draws a picture of a relit scene, as renderView makes it: linear radiance, unclamped.
-/// Differs: a pixel is what its centre shows, or the mean of so many
-/// places as the driver spreads over it.
+/// Draws a picture of a relit scene, as renderView makes it: linear radiance, unclamped. Differs: a
+/// pixel is what its centre shows, or the mean of as many places as the target has samples; and
+/// what lies nearer than a thousandth of the farthest point is not seen.
 ///
 /// Leaves depth test, culling, program, textures and buffers as it needs them.
 ///
