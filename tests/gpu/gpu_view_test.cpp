@@ -15,9 +15,8 @@
 #include "prt/gpu/gpu_relighter.h"
 #include "prt/gpu/gpu_vertex_radiance.h"
 #include "prt/relight/relighter.h"
-#include "prt/scene/surface_color.h"
-#include "prt/trace/ray_scene.h"
 #include "tests/gpu/gl_test.h"
+#include "tests/gpu/ray_picture.h"
 #include "tests/support/clustered_layers.h"
 #include "tests/support/scenes.h"
 
@@ -25,8 +24,8 @@ namespace prt {
 namespace {
 
 constexpr int kBandCount = 4;
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
+constexpr int kWidth = test::RayPicture::kWidth;
+constexpr int kHeight = test::RayPicture::kHeight;
 
 /// Of linear values, for a peak of 1. What remains is rounding, of vertices to a 256th of a pixel
 /// first of all.
@@ -119,112 +118,6 @@ std::vector<ExitRadiance> relightVertices(const CompressedTransfer& transfer,
     return ofVertices;
 }
 
-/// Radiance through one place of the picture, by rays; and which triangle is there.
-class RayPicture {
-  public:
-    /// @param radiance  of every vertex
-    RayPicture(const Scene& scene, std::vector<ExitRadiance> radiance, const Camera& camera)
-        : scene_(scene),
-          rays_(scene),
-          camera_(camera),
-          offsets_(vertexOffsets(scene)),
-          radiance_(std::move(radiance)) {}
-
-    RayPicture(const Scene& scene, const CompressedTransfer& transfer, const Lighting& lighting,
-               const Camera& camera)
-        : RayPicture(scene, relightVertices(transfer, lighting), camera) {}
-
-    /// @param x, y  in pixels from the top left corner
-    Vec3f directionThrough(double x, double y) const {
-        const double pixel = 2.0 * std::tan(0.5 * camera_.verticalFovRadians) / kHeight;
-        const Vec3d right = Vec3d(camera_.forward).cross(Vec3d(camera_.up));
-        const Vec3d direction = Vec3d(camera_.forward) + right * ((x - 0.5 * kWidth) * pixel) +
-                                Vec3d(camera_.up) * ((0.5 * kHeight - y) * pixel);
-        return Vec3f(direction.normalized());
-    }
-
-    struct Seen {
-        Hit hit;
-        Vec3f radiance{0.0f, 0.0f, 0.0f};
-    };
-
-    Seen look(double x, double y) const {
-        Ray ray{camera_.eye, directionThrough(x, y)};
-        Seen seen{rays_.intersect(ray)};
-        while (!seen.hit.escaped && seen.hit.backFace && !materialOf(seen.hit).doubleSided) {
-            ray.origin += ray.direction * (seen.hit.t * 1.0001f);
-            seen.hit = rays_.intersect(ray);
-        }
-        if (!seen.hit.escaped) {
-            const SurfacePoint& point = seen.hit.point;
-            const std::uint32_t* corners = &scene_.meshes[point.mesh].indices[3 * point.triangle];
-            const auto interpolate = [&](Vec3f ExitRadiance::*member) {
-                const auto ofCorner = [&](int i) {
-                    return radiance_[offsets_[point.mesh] + corners[i]].*member;
-                };
-                return ofCorner(0) * (1.0f - point.u - point.v) + ofCorner(1) * point.u +
-                       ofCorner(2) * point.v;
-            };
-            seen.radiance =
-                evaluateAlbedo(scene_, point) * interpolate(&ExitRadiance::perBaseColor) +
-                interpolate(&ExitRadiance::constant) + evaluateEmission(scene_, point);
-        }
-        return seen;
-    }
-
-    /// What the middle of a pixel shows, if nothing has an edge within a 16th of a pixel.
-    std::optional<Vec3f> lookInside(int column, int row) const {
-        constexpr double kReach = 1.0 / 16.0;
-        constexpr float kJump = 0.05f;  // of a texel's edge or a cut-out's
-        const Seen middle = look(column + 0.5, row + 0.5);
-        for (const double dx : {-kReach, kReach}) {
-            for (const double dy : {-kReach, kReach}) {
-                const Seen beside = look(column + 0.5 + dx, row + 0.5 + dy);
-                if (beside.hit.escaped != middle.hit.escaped) return std::nullopt;
-                if (!middle.hit.escaped && (beside.hit.point.mesh != middle.hit.point.mesh ||
-                                            beside.hit.point.triangle != middle.hit.point.triangle))
-                    return std::nullopt;
-                if ((beside.radiance - middle.radiance).length() > kJump) return std::nullopt;
-            }
-        }
-        return middle.radiance;
-    }
-
-  private:
-    const Material& materialOf(const Hit& hit) const {
-        return scene_.materials[scene_.meshes[hit.point.mesh].material];
-    }
-
-    const Scene& scene_;
-    RayScene rays_;
-    Camera camera_;
-    std::vector<std::size_t> offsets_;
-    std::vector<ExitRadiance> radiance_;
-};
-
-struct Agreement {
-    double psnr = 0.0;
-    double insideShare = 0.0;  ///< of all pixels
-    double meanSquare = 0.0;   ///< of the picture by rays
-};
-
-Agreement compareWithRays(const Image& picture, const RayPicture& rays) {
-    double squares = 0.0, referenceSquares = 0.0;
-    int insideCount = 0;
-    for (int row = 0; row < picture.height; ++row) {
-        for (int column = 0; column < picture.width; ++column) {
-            const std::optional<Vec3f> expected = rays.lookInside(column, row);
-            if (!expected) continue;
-            squares += static_cast<double>((picture.at(column, row) - *expected).length2());
-            referenceSquares += static_cast<double>(expected->length2());
-            ++insideCount;
-        }
-    }
-    return {10.0 * std::log10(3.0 * insideCount / squares),
-            static_cast<double>(insideCount) / static_cast<double>(picture.pixels.size()),
-            referenceSquares / (3.0 * insideCount)};
-}
-
 /// From the open side of the room, down a little.
 const Camera kCamera{.name = {},
                      .eye = {0.5f, -3.2f, 1.5f},
@@ -251,8 +144,8 @@ class GpuView : public test::GlTest {
     void expectSamePicture(const GpuRadiance& radiance, std::vector<ExitRadiance> expected,
                            const std::string& what, const Camera& camera = kCamera) {
         const Image picture = renderGpuView(GpuScene(scene_), radiance, camera, kWidth, kHeight);
-        const Agreement agreement =
-            compareWithRays(picture, RayPicture(scene_, std::move(expected), camera));
+        const test::Agreement agreement =
+            test::compareWithRays(picture, test::RayPicture(scene_, std::move(expected), camera));
         EXPECT_GE(agreement.psnr, kLeastPsnr) << what;
         EXPECT_GE(agreement.insideShare, 0.6) << what;
         EXPECT_GE(agreement.meanSquare, 0.005) << what;  // there is something to see
@@ -337,7 +230,7 @@ TEST_F(GpuView, MoreSamplesComeCloserToTheMeanOfManyRays) {
     GpuRelighter relighter(transfer, Transport::shadowed);
     relighter.relight(lighting);
     const GpuScene gpuScene(scene_);
-    const RayPicture rays(scene_, transfer, lighting, kCamera);
+    const test::RayPicture rays(scene_, relightVertices(transfer, lighting), kCamera);
     constexpr int kRaysPerAxis = 4;
 
     std::array<double, 2> squares{};
@@ -432,7 +325,7 @@ TEST_F(GpuView, BackgroundIsTheEnvironmentInTheDirectionOfEachPixel) {
         camera.verticalFovRadians = 1.6f;
         drawGpuView(gpuScene, dark, camera, target, {&background, rotation});
         const Image picture = target.readRadiance();
-        const RayPicture rays(scene_, transfer, none, camera);
+        const test::RayPicture rays(scene_, relightVertices(transfer, none), camera);
         for (int row = 0; row < kHeight; ++row) {
             for (int column = 0; column < kWidth; ++column) {
                 if (!rays.look(column + 0.5, row + 0.5).hit.escaped ||
