@@ -1,7 +1,8 @@
 # Holds prt/ to the module list of the top CMakeLists.txt:
 #   cmake -DROOT=<folder that holds prt/> -DLAYERS=<build>/module_layers.txt -P tools/check_layering.cmake
 # A module includes itself and what it USES, by path from the root; headers that others may include leave
-# out *-inl.h, which is not installed; every folder of prt/ is a module.
+# out *-inl.h, which is not installed; every folder of prt/ is a module. A folder of apps/ includes itself and those that
+# apps/CMakeLists.txt adds before it.
 cmake_minimum_required(VERSION 3.25)
 
 set(faults "")
@@ -45,6 +46,27 @@ foreach(module IN LISTS modules)
                 endif()
             elseif(include MATCHES "\"" AND EXISTS "${ROOT}/${folder}/${path}")
                 list(APPEND faults "${source} includes ${path}, not by its path from the root, prt/...")
+            endif()
+        endforeach()
+    endforeach()
+endforeach()
+
+# And those of apps/ against the sequence in which they are added.
+set(additions "")
+if(EXISTS "${ROOT}/apps/CMakeLists.txt")
+    file(STRINGS "${ROOT}/apps/CMakeLists.txt" additions REGEX "^add_subdirectory")
+endif()
+set(above "")
+foreach(addition IN LISTS additions)
+    string(REGEX REPLACE "^add_subdirectory\\((.*)\\)$" "\\1" folder "${addition}")
+    list(APPEND above "${folder}")
+    file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/apps/${folder}/*.h" "${ROOT}/apps/${folder}/*.cpp")
+    foreach(source IN LISTS sources)
+        file(STRINGS "${ROOT}/${source}" includes REGEX "^[ \t]*#[ \t]*include[ \t]*\"apps/")
+        foreach(include IN LISTS includes)
+            string(REGEX REPLACE ".*\"apps/([^/]+)/.*" "\\1" used "${include}")
+            if(NOT used IN_LIST above)
+                list(APPEND faults "${source} includes apps/${used}, which stands below it")
             endif()
         endforeach()
     endforeach()

@@ -39,8 +39,7 @@ std::string withoutFolder(const std::string& text) {
 
 BakeReflection makeBakeReflection(const Scene& scene, const BakeArguments& arguments) {
     if (arguments.brdfs.empty()) return {};
-    const std::vector<std::optional<Brdf>> brdfs =
-        resolveBrdfs(scene, arguments.brdfs, arguments.scene);
+    const GivenBrdfs brdfs = resolveBrdfs(scene, arguments.brdfs, arguments.scene);
     const int bandCount = arguments.bake.incidentBandCount;
     BrdfTables tables = makeViewTables(brdfs, bandCount);
     std::string setting = describeBrdfs(arguments).substr(1) + " " + fingerprintTables(tables);

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/text.h"
 #include "apps/prt/arguments.h"
 #include "apps/prt/asset_output.h"
 #include "apps/prt/bake_brdf.h"
@@ -19,7 +20,6 @@
 #include "apps/prt/interrupts.h"
 #include "apps/prt/memory.h"
 #include "apps/prt/stage_log.h"
-#include "apps/prt/text.h"
 #include "prt/asset/asset_header.h"
 #include "prt/base/error.h"
 #include "prt/base/file.h"

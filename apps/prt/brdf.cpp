@@ -9,13 +9,13 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/picture.h"
+#include "apps/common/text.h"
 #include "apps/prt/arguments.h"
 #include "apps/prt/brdf_argument.h"
 #include "apps/prt/commands.h"
 #include "apps/prt/interrupts.h"
 #include "apps/prt/lobe_picture.h"
-#include "apps/prt/picture.h"
-#include "apps/prt/text.h"
 #include "prt/base/file.h"
 #include "prt/basis/sh.h"
 #include "prt/brdf/band_limit.h"

@@ -131,11 +131,10 @@ void addBrdfOption(CLI::App& command, std::vector<BrdfArgument>& arguments) {
         ->allow_extra_args(false);
 }
 
-std::vector<std::optional<Brdf>> resolveBrdfs(const Scene& scene,
-                                              std::span<const BrdfArgument> arguments,
-                                              const std::string& scenePath) {
+GivenBrdfs resolveBrdfs(const Scene& scene, std::span<const BrdfArgument> arguments,
+                        const std::string& scenePath) {
     if (arguments.empty()) return {};
-    std::vector<std::optional<Brdf>> named(scene.materials.size());
+    GivenBrdfs named(scene.materials.size());
     std::optional<Brdf> ofOthers;
     for (const BrdfArgument& argument : arguments) {
         bool isTaken = !argument.material && ofOthers;
@@ -161,23 +160,6 @@ std::vector<std::optional<Brdf>> resolveBrdfs(const Scene& scene,
     for (std::optional<Brdf>& brdf : named)
         if (!brdf) brdf = ofOthers;
     return named;
-}
-
-std::vector<std::shared_ptr<const BrdfViewTable>> makeViewTables(
-    std::span<const std::optional<Brdf>> brdfs, int incidentBandCount) {
-    std::vector<std::shared_ptr<const BrdfViewTable>> tables;
-    for (const std::optional<Brdf>& brdf : brdfs) {
-        const auto equal = std::find(brdfs.begin(), brdfs.end(), brdf);
-        const auto index = static_cast<std::size_t>(equal - brdfs.begin());
-        if (index < tables.size())
-            tables.push_back(tables[index]);
-        else if (brdf)
-            tables.push_back(std::make_shared<const BrdfViewTable>(
-                *brdf, BrdfViewTableOptions{.bandCount = incidentBandCount}));
-        else
-            tables.push_back(nullptr);
-    }
-    return tables;
 }
 
 }  // namespace prt::cli

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "apps/common/given_brdfs.h"
 #include "prt/brdf/brdf.h"
-#include "prt/brdf/brdf_view_table.h"
 #include "prt/scene/scene.h"
 
 namespace prt::cli {
@@ -49,12 +48,7 @@ void addBrdfOption(CLI::App& command, std::vector<BrdfArgument>& arguments);
 ///
 /// @param scenePath  how to call the scene in an error
 /// @throws Error     invalidOption if no material has a name, or a name comes twice
-std::vector<std::optional<Brdf>> resolveBrdfs(const Scene& scene,
-                                              std::span<const BrdfArgument> arguments,
-                                              const std::string& scenePath);
-
-/// Tables of what each material reflects, of equal BRDFs the same one; null where there is none.
-std::vector<std::shared_ptr<const BrdfViewTable>> makeViewTables(
-    std::span<const std::optional<Brdf>> brdfs, int incidentBandCount);
+GivenBrdfs resolveBrdfs(const Scene& scene, std::span<const BrdfArgument> arguments,
+                        const std::string& scenePath);
 
 }  // namespace prt::cli

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/text.h"
 #include "apps/prt/commands.h"
-#include "apps/prt/text.h"
 #include "prt/asset/asset.h"
 #include "prt/base/error.h"
 

@@ -7,17 +7,17 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/light_argument.h"
+#include "apps/common/text.h"
 #include "apps/prt/arguments.h"
 #include "apps/prt/asset_output.h"
 #include "apps/prt/commands.h"
 #include "apps/prt/compress_method.h"
 #include "apps/prt/compress_report.h"
 #include "apps/prt/interrupts.h"
-#include "apps/prt/light_argument.h"
 #include "apps/prt/limits.h"
 #include "apps/prt/stage_log.h"
 #include "apps/prt/staged_folder.h"
-#include "apps/prt/text.h"
 #include "apps/prt/texture_output.h"
 #include "prt/asset/asset.h"
 #include "prt/base/error.h"

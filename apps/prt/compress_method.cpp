@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/light_argument.h"
+#include "apps/common/text.h"
 #include "apps/prt/arguments.h"
-#include "apps/prt/light_argument.h"
-#include "apps/prt/text.h"
 #include "prt/base/error.h"
 #include "prt/compress/compression_error.h"
 

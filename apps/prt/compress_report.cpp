@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/prt/picture.h"
+#include "apps/common/picture.h"
 #include "prt/base/file.h"
 #include "prt/image/error_metrics.h"
 #include "prt/image/false_color.h"

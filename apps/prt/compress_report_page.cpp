@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/text.h"
 #include "apps/prt/compress_report.h"
 #include "apps/prt/html.h"
 #include "apps/prt/plot.h"
-#include "apps/prt/text.h"
 #include "prt/image/false_color.h"
 
 namespace prt::cli {

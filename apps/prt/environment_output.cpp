@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/picture.h"
 #include "apps/prt/arguments.h"
 #include "apps/prt/interrupts.h"
-#include "apps/prt/picture.h"
 #include "apps/prt/staged_folder.h"
 #include "prt/io/image_io.h"
 #include "prt/light/prefilter.h"

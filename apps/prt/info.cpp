@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/text.h"
 #include "apps/prt/commands.h"
 #include "apps/prt/mirror_like.h"
-#include "apps/prt/text.h"
 #include "prt/asset/asset.h"
 #include "prt/basis/sh.h"
 

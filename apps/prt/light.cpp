@@ -8,16 +8,16 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/light_argument.h"
+#include "apps/common/picture.h"
 #include "apps/prt/arguments.h"
 #include "apps/prt/coefficient_format.h"
 #include "apps/prt/commands.h"
 #include "apps/prt/environment_output.h"
 #include "apps/prt/interrupts.h"
-#include "apps/prt/light_argument.h"
 #include "apps/prt/light_report.h"
 #include "apps/prt/light_sum.h"
 #include "apps/prt/light_window.h"
-#include "apps/prt/picture.h"
 #include "apps/prt/staged_folder.h"
 #include "prt/base/error.h"
 

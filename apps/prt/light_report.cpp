@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/prt/picture.h"
+#include "apps/common/picture.h"
 #include "prt/base/file.h"
 #include "prt/image/false_color.h"
 #include "prt/image/tone_curve.h"

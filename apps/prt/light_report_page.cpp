@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/text.h"
 #include "apps/prt/html.h"
 #include "apps/prt/light_report.h"
-#include "apps/prt/text.h"
 #include "prt/image/false_color.h"
 #include "prt/image/tone_curve.h"
 

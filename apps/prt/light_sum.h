@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/prt/light_argument.h"
+#include "apps/common/light_argument.h"
 #include "apps/prt/limits.h"
 #include "prt/light/sun_split.h"
 

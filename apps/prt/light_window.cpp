@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/prt/relit_asset.h"
+#include "apps/common/relit_asset.h"
 #include "prt/base/error.h"
 #include "prt/light/deringing.h"
 
@@ -48,14 +48,6 @@ void addWindowOptions(CLI::App& command, WindowArguments& arguments) {
 std::string describeWindow(const WindowArguments& arguments) {
     if (arguments.nonNegative == "radiance") return arguments.window;
     return fmt::format("{} for {}", arguments.window, arguments.nonNegative);
-}
-
-Lighting lowerRinging(const Lighting& lighting, const std::string& window,
-                      const std::function<std::vector<double>()>& findLeast) {
-    if (window == "none") return lighting;
-    if (window == "auto") return applyWindow(lighting, findLeast());
-    const ShWindow known = window == "hann" ? ShWindow::hann : ShWindow::lanczos;
-    return applyWindow(lighting, windowFactors(known, lighting.bandCount));
 }
 
 Lighting lowerRinging(const Lighting& lighting, const WindowArguments& arguments) {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "apps/common/ringing.h"
 #include "prt/light/lighting.h"
 
 namespace prt::cli {
@@ -24,11 +24,6 @@ void addWindowOptions(CLI::App& command, WindowArguments& arguments);
 
 /// The window and what it is for, in a few words.
 std::string describeWindow(const WindowArguments& arguments);
-
-/// @param window     as --window names it
-/// @param findLeast  the factors of "auto"
-Lighting lowerRinging(const Lighting& lighting, const std::string& window,
-                      const std::function<std::vector<double>()>& findLeast);
 
 /// @throws Error  as readAsset for the asset; invalidOption if it has fewer bands than the light
 Lighting lowerRinging(const Lighting& lighting, const WindowArguments& arguments);

@@ -5,15 +5,16 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/light_argument.h"
+#include "apps/common/picture.h"
+#include "apps/common/relit_asset.h"
 #include "apps/prt/arguments.h"
 #include "apps/prt/brdf_argument.h"
 #include "apps/prt/commands.h"
 #include "apps/prt/interrupts.h"
-#include "apps/prt/light_argument.h"
 #include "apps/prt/light_window.h"
 #include "apps/prt/limits.h"
-#include "apps/prt/picture.h"
-#include "apps/prt/relit_asset.h"
+#include "apps/prt/prepared_asset.h"
 #include "apps/prt/stage_log.h"
 #include "apps/prt/view_options.h"
 #include "prt/base/file.h"

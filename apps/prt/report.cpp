@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/prt/text.h"
+#include "apps/common/text.h"
 #include "prt/base/file.h"
 #include "prt/image/false_color.h"
 #include "prt/io/image_io.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/prt/shown_transport.h"
+#include "apps/common/shown_transport.h"
 #include "prt/asset/asset.h"
 #include "prt/render/comparison.h"
 

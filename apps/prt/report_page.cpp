@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/text.h"
 #include "apps/prt/html.h"
 #include "apps/prt/report.h"
-#include "apps/prt/text.h"
 #include "prt/image/false_color.h"
 
 namespace prt::cli {

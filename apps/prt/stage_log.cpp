@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/text.h"
 #include "apps/prt/interrupts.h"
-#include "apps/prt/text.h"
 
 namespace prt::cli {
 namespace {

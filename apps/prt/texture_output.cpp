@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/prt/text.h"
+#include "apps/common/text.h"
 #include "prt/base/error.h"
 #include "prt/base/file.h"
 #include "prt/compress/transfer_textures.h"

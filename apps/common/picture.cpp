@@ -1,10 +1,10 @@
-#include "apps/prt/picture.h"
+#include "apps/common/picture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "apps/prt/arguments.h"
+#include "apps/common/parse.h"
 #include "prt/io/image_io.h"
 #include "prt/light/environment.h"
 #include "prt/light/irradiance.h"

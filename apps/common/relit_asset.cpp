@@ -1,4 +1,4 @@
-#include "apps/prt/relit_asset.h"
+#include "apps/common/relit_asset.h"
 
 #include <algorithm>
 #include <memory>
@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/prt/brdf_argument.h"
-#include "apps/prt/text.h"
+#include "apps/common/text.h"
 #include "prt/base/error.h"
 #include "prt/brdf/band_limit.h"
 #include "prt/compress/compress_transfer.h"
@@ -50,15 +49,11 @@ int findIncidentBandCount(const CompressedTransfer& transfer, ShownTransport sho
 
 }  // namespace
 
-Asset readPreparedAsset(const std::string& path, const ImageLimits& limits, StageLog& log) {
-    const Stopwatch watch;
+Asset readShownAsset(const std::string& path, const ImageLimits& limits) {
     Asset asset = readAsset(path);
     if (asset.scene.triangleCount() == 0)
         throw Error(ErrorCode::malformed, "has no triangles to show", path);
     decodeTextures(asset.scene, limits);
-    for (const std::string& warning : asset.scene.warnings)
-        log.warn(path + ": " + warning);
-    log.finishStage("load", watch.seconds(), path);
     return asset;
 }
 
@@ -118,10 +113,18 @@ std::vector<ExitRadiance> AssetRelighter::relight(ShownTransport shown, const Li
         return exit;
     }
     std::vector<Vec3f> radiance(exit.size());
-    makeRelighter(asset_, path_, shown).relight(lighting, radiance);
+    vectorRelighter(shown).relight(lighting, radiance);
     for (std::size_t i = 0; i < exit.size(); ++i)
         exit[i].perBaseColor = radiance[i];
     return exit;
+}
+
+const Relighter& AssetRelighter::vectorRelighter(ShownTransport shown) {
+    if (!lastOfVectors_ || lastOfVectors_->first != shown) {
+        lastOfVectors_.reset();  // before there are two
+        lastOfVectors_.emplace(shown, makeRelighter(asset_, path_, shown));
+    }
+    return lastOfVectors_->second;
 }
 
 const GlossyRelighter& AssetRelighter::glossyRelighter(ShownTransport shown) {

@@ -1,4 +1,4 @@
-#include "apps/prt/shown_transport.h"
+#include "apps/common/shown_transport.h"
 
 #include <algorithm>
 #include <array>

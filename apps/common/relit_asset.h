@@ -5,24 +5,23 @@
 #include <utility>
 #include <vector>
 
-#include "apps/prt/shown_transport.h"
-#include "apps/prt/stage_log.h"
+#include "apps/common/given_brdfs.h"
+#include "apps/common/shown_transport.h"
 #include "prt/asset/asset.h"
 #include "prt/brdf/brdf.h"
 #include "prt/io/image_io.h"
 #include "prt/light/lighting.h"
 #include "prt/relight/exit_radiance.h"
 #include "prt/relight/glossy_relighter.h"
+#include "prt/relight/relighter.h"
 
 namespace prt::cli {
 
-/// Reads an asset that can be shown: with triangles, textures decoded, its warnings passed on.
+/// Reads an asset that can be shown: with triangles, textures decoded.
 ///
 /// @param limits  of its textures
-Asset readPreparedAsset(const std::string& path, const ImageLimits& limits, StageLog& log);
-
-/// What materials are made of instead of what their file says: one a material, or none at all.
-using GivenBrdfs = std::vector<std::optional<Brdf>>;
+/// @throws Error  as readAsset; malformed for one without triangles
+Asset readShownAsset(const std::string& path, const ImageLimits& limits);
 
 /// What is shown of an asset: what was asked for, or else all there is.
 ///
@@ -54,14 +53,17 @@ class AssetRelighter {
     std::vector<ExitRadiance> relight(ShownTransport shown, const Lighting& lighting,
                                       const Vec3f& eye);
 
-  private:
+    /// What relights one layer, of vectors or of matrices; kept until another is asked for.
+    const Relighter& vectorRelighter(ShownTransport shown);
     const GlossyRelighter& glossyRelighter(ShownTransport shown);
 
+  private:
     const Asset& asset_;
     std::string path_;
     GivenBrdfs brdfs_;
     int threadCount_;
     std::optional<GltfViewTable> views_;
+    std::optional<std::pair<ShownTransport, Relighter>> lastOfVectors_;
     std::optional<std::pair<ShownTransport, GlossyRelighter>> lastGlossy_;
 };
 

@@ -1,4 +1,4 @@
-#include "apps/prt/text.h"
+#include "apps/common/text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "apps/prt/light_argument.h"
+#include "apps/common/light_argument.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/prt/arguments.h"
+#include "apps/common/parse.h"
 #include "prt/base/error.h"
 #include "prt/base/file.h"
 #include "prt/io/environment_io.h"
