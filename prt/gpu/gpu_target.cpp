@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
 
 #include <epoxy/gl.h>
 
+#include "prt/base/assert.h"
 #include "prt/base/error.h"
 #include "prt/gpu/gl_objects.h"
 
@@ -68,6 +70,11 @@ void flipRows(ImageOf<Pixel>& image) {
     }
 }
 
+PixelColumns boundColumns(const PixelColumns& columns, int width) {
+    const int first = std::clamp(columns.first, 0, width);
+    return {first, std::clamp(columns.end, first, width)};
+}
+
 }  // namespace
 
 GpuTarget::GpuTarget(int width, int height, int sampleCount, TargetFormat format)
@@ -109,22 +116,47 @@ void GpuTarget::complete(Layers& layers) const {
                     {}, "choose fewer samples, or draw on the CPU");
 }
 
-void GpuTarget::beginDrawing() const {
+void GpuTarget::beginDrawing(const PixelColumns& columns) const {
+    const PixelColumns drawn = boundColumns(columns, width_);
     const GlName& framebuffer =
         (multisampled_.framebuffer.get() != 0 ? multisampled_ : single_).framebuffer;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
     glViewport(0, 0, width_, height_);
+    glScissor(drawn.first, 0, drawn.end - drawn.first, height_);
+    glEnable(GL_SCISSOR_TEST);
     glDepthMask(GL_TRUE);
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void GpuTarget::finishDrawing() const {
+void GpuTarget::finishDrawing(const PixelColumns& columns) const {
+    glDisable(GL_SCISSOR_TEST);
     if (multisampled_.framebuffer.get() == 0) return;
+    const PixelColumns drawn = boundColumns(columns, width_);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, multisampled_.framebuffer.get());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, single_.framebuffer.get());
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
+    glBlitFramebuffer(drawn.first, 0, drawn.end, height_, drawn.first, 0, drawn.end, height_,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void GpuTarget::writeRadiance(const Image& radiance, const PixelColumns& columns) {
+    PRT_ASSERT(!radiance.pixels.empty(), "there is a picture");
+    const PixelColumns written = boundColumns(columns, width_);
+    Image part(written.end - written.first, height_);
+    const auto nearest = [](int pixel, int pixelCount, int texelCount) {
+        return static_cast<int>((2 * std::int64_t{pixel} + 1) * texelCount /
+                                (2 * std::int64_t{pixelCount}));
+    };
+    for (int y = 0; y < part.height; ++y) {
+        for (int x = 0; x < part.width; ++x)
+            part.at(x, y) = radiance.at(nearest(written.first + x, width_, radiance.width),
+                                        nearest(y, height_, radiance.height));
+    }
+    flipRows(part);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, single_.color.get());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, written.first, 0, part.width, part.height, GL_RGB, GL_FLOAT,
+                    part.pixels.data());
 }
 
 Image GpuTarget::readRadiance() const {

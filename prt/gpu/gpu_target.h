@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "prt/gpu/gl_name.h"
 #include "prt/image/image.h"
 
@@ -9,6 +11,12 @@ namespace prt {
 enum class TargetFormat {
     linearFloat,  ///< 32-bit floats
     codeValues,   ///< 8 bits
+};
+
+/// Columns of a picture from the left: first to before end, as far as the picture has them.
+struct PixelColumns {
+    int first = 0;
+    int end = std::numeric_limits<int>::max();
 };
 
 /// A picture in the memory of the graphics card, to be drawn to, read back and shown.
@@ -23,10 +31,17 @@ class GpuTarget {
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// What is drawn from here on comes to all of this picture, in place of all that was there.
-    void beginDrawing() const;
+    /// What is drawn from here on comes to these columns, in place of all that was there. The
+    /// viewport is that of the whole picture.
+    void beginDrawing(const PixelColumns& columns = {}) const;
     /// Makes one value of the samples of each pixel: before it is read or shown.
-    void finishDrawing() const;
+    void finishDrawing(const PixelColumns& columns = {}) const;
+
+    /// Puts a picture of floats made on the CPU there: these columns of it, as they are of the same
+    /// size, and else by the texel that is nearest to each pixel's middle.
+    ///
+    /// @param radiance  at least one pixel
+    void writeRadiance(const Image& radiance, const PixelColumns& columns = {});
 
     /// Of floats.
     Image readRadiance() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <epoxy/gl.h>
@@ -27,24 +28,34 @@ struct DepthRange {
     double farthest = 0.0;
 };
 
-/// Along the camera's axis, of all that it sees of a ball.
+/// Along the camera's axis, of all that it sees of some balls.
 ///
 /// @param cornerCosine  of the angle from the axis to a corner of the picture
-DepthRange findDepths(const Bounds& bounds, const Camera& camera, double cornerCosine) {
-    const double distance = static_cast<double>((bounds.center() - camera.eye).length());
-    const double radius = static_cast<double>(bounds.radius());
-    const double farthest = (distance + radius) * (1.0 + kDepthMargin);
-    const double nearest = (distance - radius) * cornerCosine * (1.0 - kDepthMargin);
+DepthRange findDepths(std::span<const GpuObject> objects, const Camera& camera,
+                      double cornerCosine) {
+    DepthRange depths{std::numeric_limits<double>::infinity(), 0.0};
+    for (const GpuObject& object : objects) {
+        if (object.scene->vertexCount() == 0) continue;
+        const Bounds& bounds = object.scene->bounds();
+        const Vec3d center = transformPoint(object.worldFromObject, Vec3d(bounds.center()));
+        const double distance = (center - Vec3d(camera.eye)).length();
+        const auto radius = static_cast<double>(bounds.radius());
+        depths.nearest = std::min(depths.nearest, distance - radius);
+        depths.farthest = std::max(depths.farthest, distance + radius);
+    }
+    const double farthest = depths.farthest * (1.0 + kDepthMargin);
+    const double nearest = depths.nearest * cornerCosine * (1.0 - kDepthMargin);
     if (!(farthest > 0.0)) return {kNearestShare, 1.0};
     return {std::max(nearest, farthest * kNearestShare), farthest};
 }
 
-/// OpenGL's clip space, of points relative to the eye along the world's axes; column after column.
-std::array<float, 16> makeClipMatrix(const Bounds& bounds, const Camera& camera,
-                                     const ViewFrame& view) {
-    const double cornerCosine =
-        1.0 / std::sqrt(1.0 + view.rightward.length2() + view.upward.length2());
-    const DepthRange depths = findDepths(bounds, camera, cornerCosine);
+double findCornerCosine(const ViewFrame& view) {
+    return 1.0 / std::sqrt(1.0 + view.rightward.length2() + view.upward.length2());
+}
+
+/// OpenGL's clip space, of points relative to the eye along the axes that the view has; column
+/// after column.
+std::array<float, 16> makeClipMatrix(const DepthRange& depths, const ViewFrame& view) {
     const double length = depths.farthest - depths.nearest;
     const double depthScale = (depths.farthest + depths.nearest) / length;
     const double depthOffset = -2.0 * depths.farthest * depths.nearest / length;
@@ -67,35 +78,60 @@ void checkFieldOfView(float fov) {
         throw Error(ErrorCode::invalidOption, "the field of view is not between 0 and 180 degrees");
 }
 
-void drawScene(const GpuScene& scene, const GpuRadiance& radiance, const Camera& camera,
-               const ViewFrame& view) {
-    PRT_ASSERT(scene.vertexCount() == radiance.vertexCount(), "radiance of this scene");
+/// @param lineRadiance  0 for surfaces
+void drawObjects(std::span<const GpuObject> objects, const Camera& camera, const ViewFrame& view,
+                 float lineRadiance) {
+    const DepthRange depths = findDepths(objects, camera, findCornerCosine(view));
+    for (const GpuObject& object : objects) {
+        PRT_ASSERT(object.scene->vertexCount() == object.radiance->vertexCount(),
+                   "radiance of this scene");
+        const Mat3d objectFromWorld = object.worldFromObject.linear.transposed();
+        const Vec3f eye(objectFromWorld * (Vec3d(camera.eye) - object.worldFromObject.translation));
+        const ViewFrame objectView{objectFromWorld * view.forward, objectFromWorld * view.rightward,
+                                   objectFromWorld * view.upward};
+        object.radiance->use();
+        glUniformMatrix4fv(uniforms::kClipFromEyeSpace, 1, GL_FALSE,
+                           makeClipMatrix(depths, objectView).data());
+        glUniform3fv(uniforms::kEye, 1, &eye.x);
+        glUniform1f(uniforms::kLineRadiance, lineRadiance);
+        object.scene->drawTriangles();
+    }
+}
+
+/// Lines lie on the surfaces, which step back a little for them.
+void drawWithLines(std::span<const GpuObject> objects, const Camera& camera, const ViewFrame& view,
+                   float lineRadiance) {
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(1.0f, 1.0f);
+    drawObjects(objects, camera, view, 0.0f);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    drawObjects(objects, camera, view, lineRadiance);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+}  // namespace
+
+void drawGpuView(std::span<const GpuObject> objects, const Camera& camera, const GpuTarget& target,
+                 const GpuViewOptions& options) {
+    checkFieldOfView(camera.verticalFovRadians);
+    const ViewFrame view =
+        makeViewFrame(camera, static_cast<double>(target.width()) / target.height());
+    target.beginDrawing(options.columns);
+    glEnable(GL_SAMPLE_SHADING);
+    glMinSampleShading(1.0f);
+    if (options.background) options.background->draw(view, options.worldFromBackground);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDisable(GL_BLEND);
     glCullFace(GL_BACK);
     glFrontFace(GL_CCW);
-    radiance.use();
-    glUniformMatrix4fv(uniforms::kClipFromEyeSpace, 1, GL_FALSE,
-                       makeClipMatrix(scene.bounds(), camera, view).data());
-    glUniform3fv(uniforms::kEye, 1, &camera.eye.x);
-    scene.drawTriangles();
-}
-
-}  // namespace
-
-void drawGpuView(const GpuScene& scene, const GpuRadiance& radiance, const Camera& camera,
-                 const GpuTarget& target, const GpuViewOptions& options) {
-    checkFieldOfView(camera.verticalFovRadians);
-    const ViewFrame view =
-        makeViewFrame(camera, static_cast<double>(target.width()) / target.height());
-    target.beginDrawing();
-    glEnable(GL_SAMPLE_SHADING);
-    glMinSampleShading(1.0f);
-    if (options.background) options.background->draw(view, options.worldFromBackground);
-    drawScene(scene, radiance, camera, view);
+    if (options.wireFrame)
+        drawWithLines(objects, camera, view, options.wireRadiance);
+    else
+        drawObjects(objects, camera, view, 0.0f);
     glDisable(GL_SAMPLE_SHADING);
-    target.finishDrawing();
+    target.finishDrawing(options.columns);
 }
 
 }  // namespace prt

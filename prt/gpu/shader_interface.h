@@ -14,6 +14,7 @@ inline constexpr int kBaseColorFactor = 16;
 inline constexpr int kEmissiveFactor = 17;
 inline constexpr int kTextureUvSets = 18;
 inline constexpr int kAlphaCutoff = 19;
+inline constexpr int kLineRadiance = 20;
 
 inline constexpr int kExposure = 0;
 inline constexpr int kIsAces = 1;
