@@ -34,7 +34,8 @@ class LightRig {
     /// Of lights that are on and have been read, of kMaxBandCount bands, world axes.
     const Lighting& sum() const;
     /// The same light itself, as a lat-long image: for backgrounds, mirrors and path tracing. A
-    /// single image is as large as it came.
+    /// single image is as large as it came; the sum of several has the size of the largest, up to
+    /// 2048×1024. Drawn when first asked for; stays until the next update.
     const Environment& environment() const;
 
   private:
