@@ -10,6 +10,10 @@ namespace prt {
 /// Colours for −1 … 1, evenly spaced: dark blue, white at 0, dark red.
 std::span<const Rgba8> signedColors();
 
+/// Colours for −1 … 1, evenly spaced, for surfaces: black at 0, and as bright for −x as for x,
+/// whose lightness L* they grow with; blue to pale cyan below, red to pale yellow above.
+std::span<const Rgba8> signedColorsOnBlack();
+
 /// Colours for 0 … 1, evenly spaced, from dark to bright: black, violet, red, yellow, white.
 std::span<const Rgba8> unitColors();
 
@@ -19,5 +23,9 @@ std::span<const Rgba8> unitColors();
 /// @param colors     at least two
 Rgba8Image drawFalseColors(const ImageOf<float>& values, float low, float high,
                            std::span<const Rgba8> colors);
+
+/// The same of one number: the radiance that shows as its colour where neither exposure nor a tone
+/// curve changes it.
+Vec3f findFalseRadiance(float value, float low, float high, std::span<const Rgba8> colors);
 
 }  // namespace prt

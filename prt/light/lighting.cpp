@@ -26,6 +26,13 @@ Lighting changeChannels(const Lighting& lighting, const Change& change) {
 
 }  // namespace
 
+Lighting makeBasisLighting(int bandCount, int index) {
+    PRT_ASSERT(index >= 0 && index < shCoefficientCount(bandCount), "a function of these bands");
+    Lighting lighting(bandCount);
+    lighting.coefficients[static_cast<std::size_t>(index)] = Vec3d(1.0);
+    return lighting;
+}
+
 Lighting rotate(const Lighting& lighting, const Mat3d& rotation) {
     const std::size_t count = lighting.coefficients.size();
     std::vector<double> channels;

@@ -27,6 +27,9 @@ struct Lighting {
           coefficients(static_cast<std::size_t>(shCoefficientCount(bands)), Vec3d(0.0)) {}
 };
 
+/// White light that is basis function i alone. What it relights shows coefficient i of transfer.
+Lighting makeBasisLighting(int bandCount, int index);
+
 /// The lighting turned by a rotation: f(R⁻¹ω).
 Lighting rotate(const Lighting& lighting, const Mat3d& rotation);
 

@@ -41,6 +41,15 @@ TEST(Lighting, ReconstructionTreatsChannelsAlike) {
     }
 }
 
+TEST(Lighting, BasisLightingIsTheBasisFunction) {
+    const Vec3d direction = Vec3d(2.0, -1.0, 2.0) / 3.0;
+    std::vector<double> basis(16);
+    evaluateSh(direction, 4, basis);
+    for (int i = 0; i < 16; ++i)
+        expectNear(reconstruct(makeBasisLighting(4, i), direction),
+                   Vec3d(basis[static_cast<std::size_t>(i)]));
+}
+
 TEST(Lighting, RotatedLightingShowsAtTheRotatedDirectionWhatItShowedBefore) {
     const Lighting lighting = makeRandomLighting(6, 2);
     const Mat3d rotation = rotationAbout(Vec3d(2.0, -1.0, 2.0) / 3.0, 2.0);
