@@ -2,11 +2,14 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "apps/viewer/light_rig.h"
 #include "apps/viewer/object_shelf.h"
 #include "apps/viewer/view_state.h"
 #include "prt/gpu/gpu_target.h"
+#include "prt/scene/scene.h"
 
 namespace prt::viewer {
 
@@ -18,7 +21,7 @@ struct StageOptions {
     std::optional<bool> relightsOnCard{};
 };
 
-/// Draws views, in a window or without one. All of it on the thread of one OpenGL context.
+/// Draws views, in a window or without one: all of it on the thread of one OpenGL context.
 class Stage {
   public:
     explicit Stage(const StageOptions& options);
@@ -33,14 +36,36 @@ class Stage {
     const ObjectShelf& objects() const;
     const LightRig& lights() const;
 
-    /// The view's own camera, or one that frames all objects.
+    /// Whether vectors are relit by OpenGL.
+    bool relightsOnCard() const;
+
+    /// Whether an object of the view can be seen; and of all of them.
+    bool showsAnything() const;
+    std::size_t vertexCount() const;
+    std::size_t triangleCount() const;
+    /// What of the view cannot be shown, and why; one sentence each.
+    std::vector<std::string> describeFaults() const;
+
+    /// Where an object stands; none while it is not shown.
+    std::optional<Affine3d> worldFromObject(const ViewState& view, std::size_t object) const;
+
+    /// The view's own camera; or else the first that an asset shown alone has; or one that frames
+    /// all objects.
     CameraPose cameraPose(const ViewState& view, double aspectRatio) const;
 
-    /// What turns radiance into the picture that a person sees.
-    DisplayOptions displayOptions(const ViewState& view) const;
+    /// The light of a pane, world axes: of the bands that are used, windowed, turned.
+    ///
+    /// @param mostBands  that the receiver has
+    Lighting lightingOf(const ViewState& view, const Pane& pane, int mostBands) const;
 
-    /// Linear radiance of the view as it was last updated, without lobes.
-    const GpuTarget& draw(const ViewState& view, int width, int height);
+    /// Draws the linear radiance of the view, of what has been read so far.
+    ///
+    /// @param sampleCount  a pixel
+    /// @return             until the next call
+    const GpuTarget& draw(const ViewState& view, int width, int height, int sampleCount);
+
+    /// Shows what was drawn last over the viewport of the framebuffer that is bound.
+    void present(const ViewState& view) const;
 
   private:
     struct Content;

@@ -22,7 +22,7 @@ ViewState loadView(const std::filesystem::path& path);
 
 /// One step of a scripted run: the view is changed, drawn, and a picture taken.
 struct ScriptStep {
-    std::string patch;       ///< JSON; of the view [RFC 7396]
+    std::string patch;       ///< JSON; of the view [RFC7396]
     std::string screenshot;  ///< .png or .exr; empty for none
 };
 

@@ -1,6 +1,8 @@
 #include "prt/gpu/gl_context.h"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 #include <vector>
 
 #include <epoxy/egl.h>
@@ -105,6 +107,18 @@ GlContext::~GlContext() = default;
 
 void GlContext::makeCurrent() const {
     if (!handles_->makeCurrent()) refuse("the driver does not let this thread use its context");
+}
+
+bool isSoftwareRasteriser() {
+    constexpr std::array<std::string_view, 3> kNames = {"llvmpipe", "softpipe", "SWR"};
+    const std::string_view renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    return std::any_of(kNames.begin(), kNames.end(), [&](std::string_view name) {
+        return renderer.find(name) != std::string_view::npos;
+    });
+}
+
+void finishGpuWork() {
+    glFinish();
 }
 
 }  // namespace prt

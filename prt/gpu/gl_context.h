@@ -31,4 +31,10 @@ class GlContext {
     std::string description_;
 };
 
+/// Whether the OpenGL of the current context runs on the CPU, as Mesa's rasterisers do.
+bool isSoftwareRasteriser();
+
+/// Waits until all that was asked of the current context has been done.
+void finishGpuWork();
+
 }  // namespace prt

@@ -13,7 +13,10 @@ class GpuDisplay {
 
     /// Draws a picture over the viewport of the framebuffer that is bound, pixel for pixel where
     /// they are of the same size. Leaves depth test, culling and blending off.
-    void draw(const GpuTarget& radiance, const DisplayOptions& options = {}) const;
+    ///
+    /// @param columns  of the viewport, which are drawn; the others stay as they are
+    void draw(const GpuTarget& radiance, const DisplayOptions& options = {},
+              const PixelColumns& columns = {}) const;
 
   private:
     ScreenPass pass_;

@@ -47,9 +47,12 @@ Camera lookAt(const Vec3f& eye, const Vec3f& target, float verticalFovRadians) {
 }
 
 Camera frameScene(const Scene& scene, float aspectRatio) {
+    return frameBounds(scene.vertexCount() > 0 ? computeBounds(scene) : Bounds{}, aspectRatio);
+}
+
+Camera frameBounds(const Bounds& bounds, float aspectRatio) {
     PRT_ASSERT(aspectRatio > 0.0f && std::isfinite(aspectRatio),
                "a picture has a width and a height");
-    const Bounds bounds = scene.vertexCount() > 0 ? computeBounds(scene) : Bounds{};
     const Vec3d center = (Vec3d(bounds.low) + Vec3d(bounds.high)) * 0.5;
     const Vec3d halfSize = (Vec3d(bounds.high) - Vec3d(bounds.low)) * 0.5;
     Camera camera = lookAt(Vec3f(kFramingDirection), Vec3f(0.0f), kFramingFovRadians);

@@ -9,9 +9,12 @@ namespace prt {
 /// @param verticalFovRadians  in (0, π)
 Camera lookAt(const Vec3f& eye, const Vec3f& target, float verticalFovRadians);
 
-/// A camera that shows the whole scene from the front, a little from the right and above.
+/// A camera that shows all of a box from the front, a little from the right and above.
 ///
 /// @param aspectRatio  width over height of the picture to come
+Camera frameBounds(const Bounds& bounds, float aspectRatio);
+
+/// The same of a scene.
 Camera frameScene(const Scene& scene, float aspectRatio);
 
 }  // namespace prt

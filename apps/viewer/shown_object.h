@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/common/relit_asset.h"
+#include "apps/viewer/view_state.h"
+#include "prt/asset/asset.h"
+#include "prt/gpu/gpu_relighter.h"
+#include "prt/gpu/gpu_scene.h"
+#include "prt/gpu/gpu_vertex_radiance.h"
+
+namespace prt::viewer {
+
+struct RelightingOptions {
+    int threadCount = 0;  ///< 0: one a core
+    bool onCard = true;   ///< vectors are relit by OpenGL
+};
+
+/// The layer that a pane shows of an asset: the one that was asked for, or else all there is.
+cli::ShownTransport chooseTransport(const Pane& pane, const CompressedTransfer& transfer);
+
+/// An asset on the graphics card, and its radiance in each pane.
+class ShownObject {
+  public:
+    static constexpr std::size_t kPaneCount = 2;
+
+    /// @throws Error  as GpuScene
+    ShownObject(std::shared_ptr<const Asset> asset, std::string path,
+                const RelightingOptions& options);
+
+    const Asset& asset() const { return *asset_; }
+    const GpuScene& scene() const { return scene_; }
+
+    /// Nothing is done where nothing has changed since the last time for this pane.
+    ///
+    /// @param lighting  in the object's frame, with at most the asset's bands
+    /// @param eye       the same
+    const GpuRadiance& relight(std::size_t paneIndex, const Pane& pane, const Lighting& lighting,
+                               const Vec3f& eye);
+
+  private:
+    /// What one pane shows.
+    struct Relit {
+        Pane pane;
+        std::vector<Vec3d> coefficients;
+        Vec3f eye{0.0f, 0.0f, 0.0f};
+        std::optional<cli::AssetRelighter> relighter;
+        std::optional<GpuRelighter> onCard;
+        std::optional<GpuVertexRadiance> uploaded;
+        std::vector<Vec3f> vertexRadiance;  ///< before it goes to the card, kept for its memory
+    };
+
+    bool isUpToDate(const Relit& relit, const Pane& pane, const Lighting& lighting,
+                    const Vec3f& eye) const;
+    void relightOnCard(Relit& relit, cli::ShownTransport shown, bool isNew,
+                       const Lighting& lighting) const;
+    void relightHere(Relit& relit, cli::ShownTransport shown, const Lighting& lighting,
+                     const Vec3f& eye) const;
+
+    std::shared_ptr<const Asset> asset_;
+    std::string path_;
+    RelightingOptions options_;
+    GpuScene scene_;
+    std::array<Relit, kPaneCount> relit_;
+};
+
+}  // namespace prt::viewer
