@@ -13,20 +13,10 @@ layout(location = 0) out vec4 radiance;
 
 const float kPi = 3.14159265358979;
 
-vec3 readTexel(ivec2 texel, ivec2 size) {
-    return texelFetch(environment, ivec2((texel.x + size.x) % size.x, clamp(texel.y, 0, size.y - 1)), 0).rgb;
-}
-
 void main() {
-    vec3 direction = normalize(forward + (2.0 * place.x - 1.0) * rightward + (2.0 * place.y - 1.0) * upward);
-    ivec2 size = textureSize(environment, 0);
+    vec3 direction = forward + (2.0 * place.x - 1.0) * rightward + (2.0 * place.y - 1.0) * upward;
     // The angle from +y by both its sine and its cosine: exact at the poles too.
     float polar = atan(length(direction.xz), direction.y);
     float azimuth = direction.x == 0.0 && direction.z == 0.0 ? 0.0 : atan(direction.z, direction.x);
-    vec2 pixel = vec2(0.5 + azimuth / (2.0 * kPi), polar / kPi) * vec2(size) - 0.5;
-    ivec2 low = ivec2(floor(pixel));
-    vec2 weight = pixel - vec2(low);
-    vec3 upper = mix(readTexel(low, size), readTexel(low + ivec2(1, 0), size), weight.x);
-    vec3 lower = mix(readTexel(low + ivec2(0, 1), size), readTexel(low + ivec2(1, 1), size), weight.x);
-    radiance = vec4(mix(upper, lower, weight.y), 0.0);
+    radiance = vec4(textureLod(environment, vec2(0.5 + azimuth / (2.0 * kPi), polar / kPi), 0.0).rgb, 0.0);
 }

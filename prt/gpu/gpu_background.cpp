@@ -27,7 +27,8 @@ GlName uploadRadiance(const Image& image) {
     GlName texture(name, [](unsigned given) { glDeleteTextures(1, &given); });
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, name);
-    glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGB32F, image.width, image.height);
+    // Of four channels, since texels of a power of two of bytes are faster to find.
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, image.width, image.height);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,
                     image.pixels.data());
     checkGpuMemory("the environment");
@@ -37,7 +38,8 @@ GlName uploadRadiance(const Image& image) {
 }  // namespace
 
 GpuBackground::GpuBackground(const Environment& environment)
-    : pass_(findShader("shaders/background.frag")), texture_(uploadRadiance(environment.radiance)) {
+    : pass_(findShader("shaders/background.frag"), TextureFilter::linear),
+      texture_(uploadRadiance(environment.radiance)) {
     PRT_ASSERT(environment.map == SphereMap::latLong, "a lat-long map");
 }
 
@@ -48,10 +50,14 @@ void GpuBackground::draw(const ViewFrame& view, const Mat3d& worldFromBackground
         glUniform3f(location, turned.x, turned.y, turned.z);
     };
     pass_.use(texture_.get());
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
     setDirection(uniforms::kForward, view.forward);
     setDirection(uniforms::kRightward, view.rightward);
     setDirection(uniforms::kUpward, view.upward);
     pass_.draw();
+    glDepthMask(GL_TRUE);
 }
 
 }  // namespace prt

@@ -116,7 +116,7 @@ void GpuTarget::complete(Layers& layers) const {
                     {}, "choose fewer samples, or draw on the CPU");
 }
 
-void GpuTarget::beginDrawing(const PixelColumns& columns) const {
+void GpuTarget::beginDrawing(const PixelColumns& columns, bool isCovered) const {
     const PixelColumns drawn = boundColumns(columns, width_);
     const GlName& framebuffer =
         (multisampled_.framebuffer.get() != 0 ? multisampled_ : single_).framebuffer;
@@ -126,7 +126,7 @@ void GpuTarget::beginDrawing(const PixelColumns& columns) const {
     glEnable(GL_SCISSOR_TEST);
     glDepthMask(GL_TRUE);
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glClear(isCovered ? GL_DEPTH_BUFFER_BIT : GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 void GpuTarget::finishDrawing(const PixelColumns& columns) const {

@@ -33,7 +33,9 @@ class GpuTarget {
 
     /// What is drawn from here on comes to these columns, in place of all that was there. The
     /// viewport is that of the whole picture.
-    void beginDrawing(const PixelColumns& columns = {}) const;
+    ///
+    /// @param isCovered  whether each pixel of them will be drawn, so that none need be black
+    void beginDrawing(const PixelColumns& columns = {}, bool isCovered = false) const;
     /// Makes one value of the samples of each pixel: before it is read or shown.
     void finishDrawing(const PixelColumns& columns = {}) const;
 

@@ -56,10 +56,9 @@ void drawGpuView(std::span<const GpuObject> objects, const Camera& camera, const
     checkFieldOfView(camera.verticalFovRadians);
     const ViewFrame view =
         makeViewFrame(camera, static_cast<double>(target.width()) / target.height());
-    target.beginDrawing(options.columns);
+    target.beginDrawing(options.columns, options.background != nullptr);
     glEnable(GL_SAMPLE_SHADING);
     glMinSampleShading(1.0f);
-    if (options.background) options.background->draw(view, options.worldFromBackground);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDisable(GL_BLEND);
@@ -69,6 +68,7 @@ void drawGpuView(std::span<const GpuObject> objects, const Camera& camera, const
         drawWithLines(objects, camera, view, options.wireRadiance);
     else
         drawObjects(objects, camera, view, 0.0f);
+    if (options.background) options.background->draw(view, options.worldFromBackground);
     glDisable(GL_SAMPLE_SHADING);
     target.finishDrawing(options.columns);
 }

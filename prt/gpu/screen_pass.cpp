@@ -4,15 +4,18 @@
 
 namespace prt {
 
-ScreenPass::ScreenPass(const ShaderText& fragmentShader)
+ScreenPass::ScreenPass(const ShaderText& fragmentShader, TextureFilter filter)
     : program_(linkProgram(findShader("shaders/screen.vert"), fragmentShader)) {
     unsigned name = 0;
     glGenVertexArrays(1, &name);
     layout_ = GlName(name, [](unsigned given) { glDeleteVertexArrays(1, &given); });
     glGenSamplers(1, &name);
     sampler_ = GlName(name, [](unsigned given) { glDeleteSamplers(1, &given); });
-    glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    const GLint glFilter = filter == TextureFilter::linear ? GL_LINEAR : GL_NEAREST;
+    glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, glFilter);
+    glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, glFilter);
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
 void ScreenPass::use(unsigned texture) const {
