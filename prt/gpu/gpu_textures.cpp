@@ -28,8 +28,14 @@ GlName makeSampler(GLint wrapU, GLint wrapV, GLint filter) {
     return sampler;
 }
 
-/// Texels are decoded before they are blended, as the sRGB formats promise.
-GlName uploadImage(const Rgba8Image& image, const std::string& what) {
+/// What stands for white is the quickest to look up.
+constexpr TextureUse kWhiteUse{.wrapU = TextureWrap::clampToEdge,
+                               .wrapV = TextureWrap::clampToEdge,
+                               .filter = TextureFilter::nearest};
+
+/// Texels of sRGB formats are decoded before they are blended, as these promise.
+GlName uploadImage(const Rgba8Image& image, const std::string& what,
+                   GLenum format = GL_SRGB8_ALPHA8) {
     GLint mostTexels = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &mostTexels);
     if (image.width > mostTexels || image.height > mostTexels)
@@ -43,7 +49,7 @@ GlName uploadImage(const Rgba8Image& image, const std::string& what) {
     glGenTextures(1, &name);
     GlName texture(name, [](unsigned given) { glDeleteTextures(1, &given); });
     glBindTexture(GL_TEXTURE_2D, name);
-    glTexStorage2D(GL_TEXTURE_2D, 1, GL_SRGB8_ALPHA8, image.width, image.height);
+    glTexStorage2D(GL_TEXTURE_2D, 1, format, image.width, image.height);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
                     image.pixels.data());
     checkGpuMemory("texture " + what);
@@ -53,7 +59,7 @@ GlName uploadImage(const Rgba8Image& image, const std::string& what) {
 }  // namespace
 
 GpuTextures::GpuTextures(const Scene& scene)
-    : images_(scene.images.size()), white_(uploadImage(Rgba8Image(1, 1), "white")) {
+    : images_(scene.images.size()), white_(uploadImage(Rgba8Image(1, 1), "white", GL_RGBA8)) {
     for (std::size_t u = 0; u < kWraps.size(); ++u) {
         for (std::size_t v = 0; v < kWraps.size(); ++v) {
             for (std::size_t filter = 0; filter < kFilters.size(); ++filter)
@@ -72,8 +78,8 @@ GpuTextures::GpuTextures(const Scene& scene)
 }
 
 void GpuTextures::bind(unsigned unit, const std::optional<TextureUse>& texture) const {
-    const TextureUse use = texture.value_or(TextureUse());
-    const bool isImage = texture && images_[use.image].get() != 0;
+    const bool isImage = texture && images_[texture->image].get() != 0;
+    const TextureUse use = isImage ? *texture : kWhiteUse;
     const std::size_t sampler =
         samplerIndex(static_cast<std::size_t>(use.wrapU), static_cast<std::size_t>(use.wrapV),
                      static_cast<std::size_t>(use.filter));
