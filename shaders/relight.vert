@@ -23,6 +23,7 @@ struct ExitRadiance {
 layout(std430, binding = 0) readonly buffer Relit { ExitRadiance relitVertices[]; };
 #else
 layout(location = 2) uniform uint receiverCount;
+layout(location = 3) uniform uint panelCount;
 
 // Numbers of all receivers in panels of four columns: [panel][receiver][4].
 layout(std430, binding = 0) readonly buffer Transfer { uint words[]; };
@@ -30,11 +31,10 @@ layout(std430, binding = 1) readonly buffer Receivers { uint receiverOfVertex[];
 
 #if CLUSTERED
 layout(std430, binding = 2) readonly buffer Products { vec4 products[]; };           // R_kp
-layout(std430, binding = 3) readonly buffer FirstProducts { uint firstProducts[]; };  // of k; the count
+layout(std430, binding = 3) readonly buffer FirstProducts { uint firstProducts[]; };  // of k
 #else
 // A column a channel: what it makes of a panel's four numbers, as they are stored.
 layout(std430, binding = 2) readonly buffer Light { mat3x4 light[]; };
-layout(location = 3) uniform uint panelCount;
 layout(location = 4) uniform vec3 biasRadiance;  // what the columns' biases make
 #endif
 #endif
@@ -62,14 +62,15 @@ vec4 readNumbers(uint panel, uint receiver) {
 
 #if CLUSTERED
 vec3 relight(uint receiver) {
-    vec4 numbers = readNumbers(0u, receiver);
-    uint cluster = uint(numbers.x);
-    uint first = firstProducts[cluster];
-    uint componentCount = firstProducts[cluster + 1u] - first - 1u;
-    vec3 sum = products[first].rgb;
-    for (uint p = 1u; p <= componentCount; ++p) {
-        if (p % 4u == 0u) numbers = readNumbers(p / 4u, receiver);
-        sum += numbers[p % 4u] * products[first + p].rgb;
+    vec4 weights = readNumbers(0u, receiver);
+    uint first = firstProducts[uint(weights.x)];
+    weights.x = 1.0;  // of R_k0
+    vec3 sum = vec3(0.0);
+    for (uint panel = 0u; panel < panelCount; ++panel) {
+        if (panel > 0u) weights = readNumbers(panel, receiver);
+        uint p = first + 4u * panel;  // weights are 0 beyond those of the cluster
+        sum += weights.x * products[p].rgb + weights.y * products[p + 1u].rgb +
+               weights.z * products[p + 2u].rgb + weights.w * products[p + 3u].rgb;
     }
     return sum;
 }

@@ -73,6 +73,7 @@ struct GpuRelighter::Content {
     TransferEncoding encoding = TransferEncoding::float32;
     std::vector<StoredRange> ranges;  ///< of the columns, without clusters
     std::optional<Clusters> clusters;
+    std::size_t productCount = 0;  ///< of clusters, padded
     GlName program;
     GlName transfer;
     GlName receivers;
@@ -105,7 +106,11 @@ struct GpuRelighter::Content {
         clusters.emplace(Clusters{VectorBlocks(bases.vectors, layerBandCount, layer.channelCount),
                                   std::move(firsts),
                                   makeBuffer(std::span(shaderFirsts), "clusters")});
-        const std::size_t byteCount = clusters->vectors.vectorCount() * sizeof(PaddedProduct);
+        const std::size_t panelCount = layer.table.numbers.panelCount();
+        glProgramUniform1ui(program.get(), uniforms::kPanelCount, static_cast<GLuint>(panelCount));
+        // A vertex multiplies its zeros, too, with what stands behind the last product.
+        productCount = clusters->vectors.vectorCount() + panelCount * CoefficientTable::kPanelWidth;
+        const std::size_t byteCount = productCount * sizeof(PaddedProduct);
         requireShaderBuffers(byteCount);
         light = makeBuffer(byteCount, "clusters");
     }
@@ -115,7 +120,7 @@ struct GpuRelighter::Content {
         std::vector<Vec3f> products(clusters->vectors.vectorCount());
         clusters->vectors.relight(lighting, 0, ResultStore::cached, products);
         const auto fraction = static_cast<float>(1.0 / largestStored(encoding));
-        std::vector<PaddedProduct> padded(products.size());
+        std::vector<PaddedProduct> padded(productCount);
         for (std::size_t k = 0; k + 1 < clusters->firstVectors.size(); ++k) {
             const std::size_t first = clusters->firstVectors[k];
             for (std::size_t i = first; i < clusters->firstVectors[k + 1]; ++i)
