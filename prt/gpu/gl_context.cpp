@@ -110,9 +110,10 @@ void GlContext::makeCurrent() const {
 }
 
 bool isSoftwareRasteriser() {
-    constexpr std::array<std::string_view, 3> kNames = {"llvmpipe", "softpipe", "SWR"};
+    constexpr std::array<std::string_view, 5> kNames = {"llvmpipe", "softpipe", "SWR",
+                                                        "SwiftShader", "Software Rasterizer"};
     const std::string_view renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
-    return std::any_of(kNames.begin(), kNames.end(), [&](std::string_view name) {
+    return std::ranges::any_of(kNames, [&](std::string_view name) {
         return renderer.find(name) != std::string_view::npos;
     });
 }

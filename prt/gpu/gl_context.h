@@ -31,7 +31,8 @@ class GlContext {
     std::string description_;
 };
 
-/// Whether the OpenGL of the current context runs on the CPU, as Mesa's rasterisers do.
+/// Whether what draws in the context that is current runs on the CPU, by the driver's name of
+/// itself: Relighter is faster there than shaders are, and samples of a pixel are dear.
 bool isSoftwareRasteriser();
 
 /// Waits until all that was asked of the current context has been done.

@@ -21,6 +21,15 @@ TEST_F(ShaderProgram, ContextIsOfTheVersionThatShadersAreWrittenFor) {
     EXPECT_GE(description.at(found + marker.size()), '3') << description;
 }
 
+TEST_F(ShaderProgram, RasteriserOfMesaRunsOnTheCpu) {
+    const std::string& description = context().description();
+    const bool isMesas = description.starts_with("llvmpipe");
+    const bool isCard = description.find("NVIDIA") != std::string::npos;
+    if (isMesas || isCard) {
+        EXPECT_EQ(isSoftwareRasteriser(), isMesas) << description;
+    }
+}
+
 TEST_F(ShaderProgram, ShadersOfTheLibraryCompileInEveryForm) {
     int programCount = 0;
     for (const char* bytes : {"4", "2", "1"}) {
