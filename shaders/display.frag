@@ -4,15 +4,39 @@
 in vec2 place;
 
 layout(location = 0) uniform float exposure;
-layout(location = 1) uniform bool isAces;
+layout(location = 1) uniform int toneCurve;
 layout(binding = 0) uniform sampler2D radiance;
 
 layout(location = 0) out vec4 codeValues;
+
+const int kAces = 1;
+const int kNeutral = 2;
 
 // Narkowicz' fit of the ACES filmic curve [Narkowicz15].
 vec3 applyAces(vec3 x) {
     vec3 bounded = clamp(x, 0.0, 100.0);
     return bounded * (2.51 * bounded + 0.03) / (bounded * (2.43 * bounded + 0.59) + 0.14);
+}
+
+// Khronos PBR Neutral [Khronos24].
+vec3 applyNeutral(vec3 x) {
+    const float kFresnel = 0.04;
+    const float kCompressionStart = 0.8 - kFresnel;
+    const float kDesaturation = 0.15;
+    vec3 color = clamp(x, 0.0, 1e6);
+    float least = min(color.r, min(color.g, color.b));
+    vec3 matte = color - (least > 2.0 * kFresnel ? kFresnel : least - least * least / (4.0 * kFresnel));
+    float peak = max(matte.r, max(matte.g, matte.b));
+    if (peak <= kCompressionStart) return matte;
+    const float kRest = 1.0 - kCompressionStart;
+    float compressed = 1.0 - kRest * kRest / (peak + kRest - kCompressionStart);
+    float saturation = 1.0 / (kDesaturation * (peak - compressed) + 1.0);
+    return mix(vec3(compressed), matte * (compressed / peak), saturation);
+}
+
+vec3 applyCurve(vec3 x) {
+    if (toneCurve == kAces) return applyAces(x);
+    return toneCurve == kNeutral ? applyNeutral(x) : x;
 }
 
 vec3 encodeSrgb(vec3 linear) {
@@ -22,6 +46,6 @@ vec3 encodeSrgb(vec3 linear) {
 
 void main() {
     vec3 exposed = texture(radiance, place).rgb * exposure;
-    vec3 shown = clamp(isAces ? applyAces(exposed) : exposed, 0.0, 1.0);
+    vec3 shown = clamp(applyCurve(exposed), 0.0, 1.0);
     codeValues = vec4(encodeSrgb(shown), 1.0);
 }

@@ -18,7 +18,7 @@ std::string describeCommand(const std::string& start, const CLI::App& command,
 
 /// Adds an option whose text `parse` turns into an optional value; without one it is wrong usage.
 ///
-/// @param expected  what the option takes, for the help and the error: "none|aces"
+/// @param expected  what the option takes, for the help and the error: "none|aces|neutral"
 template <class Target, class Parse>
 CLI::Option* addParsedOption(CLI::App& command, const std::string& name, Target& value, Parse parse,
                              const std::string& expected, const std::string& help) {

@@ -256,7 +256,7 @@ std::string formatFacts(const Report& report) {
            fact("shown",
                 fmt::format("{} transport; exposure {:+g} stops, tone curve {}",
                             shownTransportName(report.transport), report.display.exposureStops,
-                            report.display.toneCurve == ToneCurve::aces ? "ACES" : "none")) +
+                            toneCurveName(report.display.toneCurve))) +
            fact("truth",
                 fmt::format(
                     "{} paths a pixel, {}",

@@ -1,23 +1,12 @@
 #include "apps/prt/view_options.h"
 
 #include <numbers>
-#include <string_view>
 #include <vector>
 
 #include "prt/base/error.h"
 #include "prt/scene/framing.h"
 
 namespace prt::cli {
-namespace {
-
-std::optional<ToneCurve> parseToneCurve(std::string_view name) {
-    if (name == "none") return ToneCurve::none;
-    if (name == "aces") return ToneCurve::aces;
-    return std::nullopt;
-}
-
-}  // namespace
-
 void addViewOptions(CLI::App& command, ViewArguments& view) {
     CLI::Option* camera = command.add_option(
         "--camera", view.camera, "a camera of the scene [its first, else all of it in view]");
@@ -50,7 +39,7 @@ DisplayOptionHandles addDisplayOptions(CLI::App& command, DisplayOptions& displa
         ->type_name("EV")
         ->capture_default_str();
     CLI::Option* tone = addParsedOption(command, "--tone", display.toneCurve, parseToneCurve,
-                                        "none|aces", "tone curve" + note)
+                                        "none|aces|neutral", "tone curve" + note)
                             ->default_str("aces");
     return {exposure, tone};
 }

@@ -1,4 +1,5 @@
 // Bibliography
+//   [Khronos24]    Khronos PBR Neutral tone mapper
 //   [Narkowicz15]  ACES filmic tone mapping curve
 #include "prt/gpu/gpu_display.h"
 
@@ -24,7 +25,7 @@ void GpuDisplay::draw(const GpuTarget& radiance, const DisplayOptions& options,
     glEnable(GL_SCISSOR_TEST);
     pass_.use(radiance.texture());
     glUniform1f(uniforms::kExposure, std::exp2(options.exposureStops));
-    glUniform1i(uniforms::kIsAces, options.toneCurve == ToneCurve::aces);
+    glUniform1i(uniforms::kToneCurve, static_cast<int>(options.toneCurve));
     pass_.draw();
     glDisable(GL_SCISSOR_TEST);
 }

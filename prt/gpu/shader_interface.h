@@ -17,7 +17,7 @@ inline constexpr int kAlphaCutoff = 19;
 inline constexpr int kLineRadiance = 20;
 
 inline constexpr int kExposure = 0;
-inline constexpr int kIsAces = 1;
+inline constexpr int kToneCurve = 1;
 
 inline constexpr int kForward = 0;
 inline constexpr int kRightward = 1;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "prt/image/image.h"
 
@@ -22,9 +24,13 @@ inline double luminance(const Vec3d& rgb) {
 }
 
 enum class ToneCurve {
-    none,  ///< clamp to [0, 1]
-    aces,  ///< Narkowicz' fit of the ACES filmic curve [Narkowicz15]
+    none,     ///< clamp to [0, 1]
+    aces,     ///< Narkowicz' fit of the ACES filmic curve [Narkowicz15]
+    neutral,  ///< hue and the colours of surfaces are kept, highlights compressed [Khronos24]
 };
+
+std::string_view toneCurveName(ToneCurve curve);
+std::optional<ToneCurve> parseToneCurve(std::string_view name);
 
 struct DisplayOptions {
     float exposureStops = 0.0f;  ///< radiance is multiplied by 2^exposureStops first

@@ -185,7 +185,7 @@ TEST_F(GpuView, ScreenShowsTheCodeValuesOfEncodeForDisplay) {
 
     constexpr int kRounding = 1;  // of a code value that is nearly between two
     std::array<bool, 256> isShown{};
-    for (const ToneCurve curve : {ToneCurve::none, ToneCurve::aces}) {
+    for (const ToneCurve curve : {ToneCurve::none, ToneCurve::aces, ToneCurve::neutral}) {
         for (const float exposureStops : {0.0f, -1.5f, 3.0f}) {
             const DisplayOptions options{exposureStops, curve};
             const Rgba8Image expected = encodeForDisplay(radiance.readRadiance(), options);
