@@ -6,18 +6,22 @@
 //
 // RELIT         1: what each vertex sends has been made elsewhere; 0: it is made here
 // STORED_BYTES  of a number: 4 is a float, 2 and 1 are integers as they stand
+// MIRRORED      defined: surfaces show what their mirrorVisibility lets through
 // CLUSTERED     1: a row is its cluster k and weights w_p; 0: coefficients, [channel][i]
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 uvSets;  // two of them
 layout(location = 2) in vec4 color;
+#ifdef MIRRORED
+layout(location = 3) in vec3 normal;
+#endif
 
 layout(location = 0) uniform mat4 clipFromEyeSpace;  // world axes, origin at the eye
 layout(location = 1) uniform vec3 eye;
 
 #if RELIT
 struct ExitRadiance {
-    vec4 perBaseColor;  // as it is multiplied by base colour
+    vec4 perBaseColor;  // as it is multiplied by base colour, and mirrorVisibility
     vec4 constant;      // and as it is not
 };
 layout(std430, binding = 0) readonly buffer Relit { ExitRadiance relitVertices[]; };
@@ -43,6 +47,11 @@ out vec3 radiancePerBaseColor;
 out vec3 constantRadiance;
 out vec4 uvs;
 out vec4 vertexColor;
+#ifdef MIRRORED
+out float mirrorVisibility;
+out vec3 surfaceNormal;
+out vec3 towardsEye;
+#endif
 
 #if !RELIT
 vec4 readNumbers(uint panel, uint receiver) {
@@ -91,6 +100,11 @@ void main() {
 #else
     radiancePerBaseColor = relight(receiverOfVertex[gl_VertexID]);
     constantRadiance = vec3(0.0);
+#endif
+#ifdef MIRRORED
+    mirrorVisibility = relitVertices[gl_VertexID].perBaseColor.a;
+    surfaceNormal = normal;
+    towardsEye = eye - position;
 #endif
     uvs = uvSets;
     vertexColor = color;

@@ -23,13 +23,17 @@ class SpecularAlbedoTable {
     /// @param cosine  of θ_o; below the horizon counts as at it
     Vec3f evaluate(const Vec3f& f0, float roughness, float cosine) const;
 
-  private:
     /// Of F0 = 0 and of F0 = 1: F is linear in F0.
     struct Entry {
         float dark = 0.0f;
         float bright = 0.0f;
     };
 
+    /// [roughness][view], as evaluate looks them up.
+    const std::vector<Entry>& entries() const { return entries_; }
+    std::size_t viewCount() const { return viewCount_; }
+
+  private:
     std::size_t levelCount_;
     std::size_t viewCount_;
     std::vector<Entry> entries_;  // [level][view]

@@ -54,4 +54,15 @@ void requireShaderBuffers(std::size_t largestBytes) {
                     {}, "compress the asset, or draw on the CPU");
 }
 
+GlName makeSampler(int wrapU, int wrapV, int filter) {
+    unsigned name = 0;
+    glGenSamplers(1, &name);
+    GlName sampler(name, [](unsigned given) { glDeleteSamplers(1, &given); });
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_S, wrapU);
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_T, wrapV);
+    glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, filter);
+    glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, filter);
+    return sampler;
+}
+
 }  // namespace prt

@@ -32,4 +32,7 @@ void checkGpuMemory(const std::string& what);
 /// @throws Error        unsupported where vertex shaders read none, limitExceeded for one so large
 void requireShaderBuffers(std::size_t largestBytes);
 
+/// How a texture without levels of detail is read, in OpenGL's names.
+GlName makeSampler(int wrapU, int wrapV, int filter);
+
 }  // namespace prt

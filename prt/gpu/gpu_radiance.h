@@ -11,6 +11,8 @@ class GpuRadiance {
     virtual std::size_t vertexCount() const = 0;
     /// Makes the program of shaders/relight.vert and surface.frag current, with its buffers.
     virtual void use() const = 0;
+    /// Whether that program is one that wants to know GpuMirrors.
+    virtual bool hasMirrors() const { return false; }
 };
 
 }  // namespace prt

@@ -48,8 +48,7 @@ GlName linkFor(const CompressedLayer& layer) {
     const std::string definitions = "#define RELIT 0\n#define STORED_BYTES " +
                                     std::to_string(bytesPerCoefficient(layer.table.encoding)) +
                                     "\n#define CLUSTERED " + (layer.bases ? "1" : "0") + "\n";
-    return linkProgram(findShader("shaders/relight.vert"), findShader("shaders/surface.frag"),
-                       definitions);
+    return linkSurfaceProgram(definitions);
 }
 
 /// A product as the shader has it, in 16 bytes.

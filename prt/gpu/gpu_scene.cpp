@@ -24,6 +24,7 @@ struct GpuVertex {
     Vec2f uv0{0.0f, 0.0f};
     Vec2f uv1{0.0f, 0.0f};
     Vec4f color{1.0f, 1.0f, 1.0f, 1.0f};
+    Vec3f normal{0.0f, 0.0f, 0.0f};
 };
 
 /// A mesh as a range of the scene's indices.
@@ -37,6 +38,7 @@ std::vector<GpuVertex> collectVertices(const Mesh& mesh) {
     std::vector<GpuVertex> vertices(mesh.vertexCount());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         vertices[i].position = mesh.positions[i];
+        vertices[i].normal = mesh.normals[i];
         if (!mesh.uvSets[0].empty()) vertices[i].uv0 = mesh.uvSets[0][i];
         if (!mesh.uvSets[1].empty()) vertices[i].uv1 = mesh.uvSets[1][i];
         if (!mesh.colors.empty()) vertices[i].color = mesh.colors[i];
@@ -54,10 +56,14 @@ void setMaterial(const Material& material, const GpuTextures& gpuTextures) {
     };
     gpuTextures.bind(textures::kBaseColor, material.baseColorTexture);
     gpuTextures.bind(textures::kEmission, material.emissiveTexture);
+    gpuTextures.bind(textures::kMetallicRoughness, material.metallicRoughnessTexture,
+                     TexelCurve::linear);
     glUniform4fv(uniforms::kBaseColorFactor, 1, &material.baseColorFactor.x);
     glUniform3fv(uniforms::kEmissiveFactor, 1, &material.emissiveFactor.x);
-    glUniform2i(uniforms::kTextureUvSets, uvSetOf(material.baseColorTexture),
-                uvSetOf(material.emissiveTexture));
+    glUniform2f(uniforms::kMetallicRoughnessFactors, material.metallicFactor,
+                material.roughnessFactor);
+    glUniform3i(uniforms::kTextureUvSets, uvSetOf(material.baseColorTexture),
+                uvSetOf(material.emissiveTexture), uvSetOf(material.metallicRoughnessTexture));
     const bool isMask = material.alphaMode == AlphaMode::mask;
     glUniform1f(uniforms::kAlphaCutoff, isMask ? material.alphaCutoff : kNoCutoff);
     if (material.doubleSided)
@@ -110,6 +116,7 @@ struct GpuScene::Content {
         writeBuffer(indices, firstIndex * sizeof(std::uint32_t), std::as_bytes(std::span(numbers)));
         dropMissingTexture(mesh, material.baseColorTexture);
         dropMissingTexture(mesh, material.emissiveTexture);
+        dropMissingTexture(mesh, material.metallicRoughnessTexture);
         parts.push_back({firstIndex, numbers.size(), std::move(material)});
     }
 
@@ -123,6 +130,7 @@ struct GpuScene::Content {
         addAttribute(attributes::kPosition, 3, offsetof(GpuVertex, position));
         addAttribute(attributes::kUvSets, 4, offsetof(GpuVertex, uv0));
         addAttribute(attributes::kColor, 4, offsetof(GpuVertex, color));
+        addAttribute(attributes::kNormal, 3, offsetof(GpuVertex, normal));
         glBindVertexArray(0);
     }
 };

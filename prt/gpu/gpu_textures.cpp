@@ -17,25 +17,13 @@ std::size_t samplerIndex(std::size_t wrapU, std::size_t wrapV, std::size_t filte
     return (wrapU * kWraps.size() + wrapV) * kFilters.size() + filter;
 }
 
-GlName makeSampler(GLint wrapU, GLint wrapV, GLint filter) {
-    unsigned name = 0;
-    glGenSamplers(1, &name);
-    GlName sampler(name, [](unsigned given) { glDeleteSamplers(1, &given); });
-    glSamplerParameteri(name, GL_TEXTURE_WRAP_S, wrapU);
-    glSamplerParameteri(name, GL_TEXTURE_WRAP_T, wrapV);
-    glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, filter);
-    glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, filter);
-    return sampler;
-}
-
 /// What stands for white is the quickest to look up.
 constexpr TextureUse kWhiteUse{.wrapU = TextureWrap::clampToEdge,
                                .wrapV = TextureWrap::clampToEdge,
                                .filter = TextureFilter::nearest};
 
-/// Texels of sRGB formats are decoded before they are blended, as these promise.
-GlName uploadImage(const Rgba8Image& image, const std::string& what,
-                   GLenum format = GL_SRGB8_ALPHA8) {
+/// Texels are decoded before they are blended, as the sRGB formats promise.
+GlName uploadImage(const Rgba8Image& image, TexelCurve curve, const std::string& what) {
     GLint mostTexels = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &mostTexels);
     if (image.width > mostTexels || image.height > mostTexels)
@@ -49,7 +37,8 @@ GlName uploadImage(const Rgba8Image& image, const std::string& what,
     glGenTextures(1, &name);
     GlName texture(name, [](unsigned given) { glDeleteTextures(1, &given); });
     glBindTexture(GL_TEXTURE_2D, name);
-    glTexStorage2D(GL_TEXTURE_2D, 1, format, image.width, image.height);
+    glTexStorage2D(GL_TEXTURE_2D, 1, curve == TexelCurve::srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8,
+                   image.width, image.height);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
                     image.pixels.data());
     checkGpuMemory("texture " + what);
@@ -59,7 +48,8 @@ GlName uploadImage(const Rgba8Image& image, const std::string& what,
 }  // namespace
 
 GpuTextures::GpuTextures(const Scene& scene)
-    : images_(scene.images.size()), white_(uploadImage(Rgba8Image(1, 1), "white", GL_RGBA8)) {
+    : images_(2 * scene.images.size()),
+      white_(uploadImage(Rgba8Image(1, 1), TexelCurve::linear, "white")) {
     for (std::size_t u = 0; u < kWraps.size(); ++u) {
         for (std::size_t v = 0; v < kWraps.size(); ++v) {
             for (std::size_t filter = 0; filter < kFilters.size(); ++filter)
@@ -67,24 +57,32 @@ GpuTextures::GpuTextures(const Scene& scene)
                     makeSampler(kWraps[u], kWraps[v], kFilters[filter]);
         }
     }
+    const auto upload = [&](const std::optional<TextureUse>& use, TexelCurve curve) {
+        if (!use || images_[placeOf(use->image, curve)].get() != 0) return;
+        const TextureImage& image = scene.images[use->image];
+        if (!image.pixels.pixels.empty())
+            images_[placeOf(use->image, curve)] = uploadImage(image.pixels, curve, image.name);
+    };
     for (const Material& material : scene.materials) {
-        for (const auto* use : {&material.baseColorTexture, &material.emissiveTexture}) {
-            if (!*use || images_[(*use)->image].get() != 0) continue;
-            const TextureImage& image = scene.images[(*use)->image];
-            if (!image.pixels.pixels.empty())
-                images_[(*use)->image] = uploadImage(image.pixels, image.name);
-        }
+        upload(material.baseColorTexture, TexelCurve::srgb);
+        upload(material.emissiveTexture, TexelCurve::srgb);
+        upload(material.metallicRoughnessTexture, TexelCurve::linear);
     }
 }
 
-void GpuTextures::bind(unsigned unit, const std::optional<TextureUse>& texture) const {
-    const bool isImage = texture && images_[texture->image].get() != 0;
-    const TextureUse use = isImage ? *texture : kWhiteUse;
+std::size_t GpuTextures::placeOf(std::size_t image, TexelCurve curve) const {
+    return image + (curve == TexelCurve::srgb ? 0 : images_.size() / 2);
+}
+
+void GpuTextures::bind(unsigned unit, const std::optional<TextureUse>& texture,
+                       TexelCurve curve) const {
+    const unsigned image = texture ? images_[placeOf(texture->image, curve)].get() : 0;
+    const TextureUse use = image != 0 ? *texture : kWhiteUse;
     const std::size_t sampler =
         samplerIndex(static_cast<std::size_t>(use.wrapU), static_cast<std::size_t>(use.wrapV),
                      static_cast<std::size_t>(use.filter));
     glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_2D, isImage ? images_[use.image].get() : white_.get());
+    glBindTexture(GL_TEXTURE_2D, image != 0 ? image : white_.get());
     glBindSampler(unit, samplers_[sampler].get());
 }
 

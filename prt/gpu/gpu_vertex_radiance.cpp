@@ -16,10 +16,15 @@ namespace {
 /// An ExitRadiance as relight.vert has it.
 struct PaddedRadiance {
     Vec3f perBaseColor{0.0f, 0.0f, 0.0f};
-    float padding = 0.0f;
+    float mirrorVisibility = 0.0f;
     Vec3f constant{0.0f, 0.0f, 0.0f};
-    float padding2 = 0.0f;
+    float padding = 0.0f;
 };
+
+GlName linkFor(bool isMirrored) {
+    return linkSurfaceProgram("#define RELIT 1\n#define CLUSTERED 0\n#define STORED_BYTES 4\n",
+                              isMirrored);
+}
 
 /// @param pad  makes a PaddedRadiance
 template <class Value, class Pad>
@@ -34,14 +39,13 @@ void writePadded(const GlName& buffer, std::span<const Value> values, const Pad&
 GpuVertexRadiance::GpuVertexRadiance(std::size_t vertexCount) : vertexCount_(vertexCount) {
     const std::size_t byteCount = vertexCount * sizeof(PaddedRadiance);
     requireShaderBuffers(byteCount);
-    program_ = linkProgram(findShader("shaders/relight.vert"), findShader("shaders/surface.frag"),
-                           "#define RELIT 1\n#define CLUSTERED 0\n#define STORED_BYTES 4\n");
+    program_ = linkFor(false);
     buffer_ = makeBuffer(byteCount, "radiance");
     upload(std::vector<Vec3f>(vertexCount, Vec3f(0.0f)));
 }
 
 void GpuVertexRadiance::use() const {
-    glUseProgram(program_.get());
+    glUseProgram((hasMirrors_ ? mirroredProgram_ : program_).get());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, buffers::kTransfer, buffer_.get());
 }
 
@@ -49,13 +53,20 @@ void GpuVertexRadiance::upload(std::span<const Vec3f> vertexRadiance) {
     PRT_ASSERT(vertexRadiance.size() == vertexCount_, "one radiance a vertex");
     writePadded(buffer_, vertexRadiance,
                 [](const Vec3f& radiance) { return PaddedRadiance{.perBaseColor = radiance}; });
+    hasMirrors_ = false;
 }
 
 void GpuVertexRadiance::upload(std::span<const ExitRadiance> vertexRadiance) {
     PRT_ASSERT(vertexRadiance.size() == vertexCount_, "one radiance a vertex");
     writePadded(buffer_, vertexRadiance, [](const ExitRadiance& radiance) {
-        return PaddedRadiance{.perBaseColor = radiance.perBaseColor, .constant = radiance.constant};
+        return PaddedRadiance{.perBaseColor = radiance.perBaseColor,
+                              .mirrorVisibility = radiance.mirrorVisibility,
+                              .constant = radiance.constant};
     });
+    hasMirrors_ = std::ranges::any_of(vertexRadiance, [](const ExitRadiance& radiance) {
+        return radiance.mirrorVisibility > 0.0f;
+    });
+    if (hasMirrors_ && mirroredProgram_.get() == 0) mirroredProgram_ = linkFor(true);
 }
 
 }  // namespace prt

@@ -18,16 +18,19 @@ class GpuVertexRadiance final : public GpuRadiance {
 
     std::size_t vertexCount() const override { return vertexCount_; }
     void use() const override;
+    bool hasMirrors() const override { return hasMirrors_; }
 
     /// @param vertexRadiance  B of every vertex, before base colour, W·sr⁻¹·m⁻²
     void upload(std::span<const Vec3f> vertexRadiance);
-    /// Without the light that mirrorVisibility lets through.
     /// @param vertexRadiance  of every vertex
+    /// @throws Error          unsupported where a shader for mirrors does not compile
     void upload(std::span<const ExitRadiance> vertexRadiance);
 
   private:
     std::size_t vertexCount_;
     GlName program_;
+    GlName mirroredProgram_;  ///< empty before the first vertex that shows a mirror
+    bool hasMirrors_ = false;
     GlName buffer_;
 };
 

@@ -19,7 +19,7 @@ void checkFieldOfView(float fov) {
 
 /// @param lineRadiance  0 for surfaces
 void drawObjects(std::span<const GpuObject> objects, const Camera& camera, const ViewFrame& view,
-                 float lineRadiance) {
+                 const GpuMirrors* mirrors, float lineRadiance) {
     const DepthRange depths = findDepths(objects, camera, view);
     for (const GpuObject& object : objects) {
         PRT_ASSERT(object.scene->vertexCount() == object.radiance->vertexCount(),
@@ -29,6 +29,12 @@ void drawObjects(std::span<const GpuObject> objects, const Camera& camera, const
         const ViewFrame objectView{objectFromWorld * view.forward, objectFromWorld * view.rightward,
                                    objectFromWorld * view.upward};
         object.radiance->use();
+        if (object.radiance->hasMirrors()) {
+            if (mirrors)
+                mirrors->use(object.worldFromObject.linear);
+            else
+                GpuMirrors::useNone();
+        }
         glUniformMatrix4fv(uniforms::kClipFromEyeSpace, 1, GL_FALSE,
                            makeClipMatrix(depths, objectView).data());
         glUniform3fv(uniforms::kEye, 1, &eye.x);
@@ -39,13 +45,13 @@ void drawObjects(std::span<const GpuObject> objects, const Camera& camera, const
 
 /// Lines lie on the surfaces, which step back a little for them.
 void drawWithLines(std::span<const GpuObject> objects, const Camera& camera, const ViewFrame& view,
-                   float lineRadiance) {
+                   const GpuMirrors* mirrors, float lineRadiance) {
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.0f, 1.0f);
-    drawObjects(objects, camera, view, 0.0f);
+    drawObjects(objects, camera, view, mirrors, 0.0f);
     glDisable(GL_POLYGON_OFFSET_FILL);
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    drawObjects(objects, camera, view, lineRadiance);
+    drawObjects(objects, camera, view, mirrors, lineRadiance);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
@@ -65,9 +71,9 @@ void drawGpuView(std::span<const GpuObject> objects, const Camera& camera, const
     glCullFace(GL_BACK);
     glFrontFace(GL_CCW);
     if (options.wireFrame)
-        drawWithLines(objects, camera, view, options.wireRadiance);
+        drawWithLines(objects, camera, view, options.mirrors, options.wireRadiance);
     else
-        drawObjects(objects, camera, view, 0.0f);
+        drawObjects(objects, camera, view, options.mirrors, 0.0f);
     if (options.background) options.background->draw(view, options.worldFromBackground);
     glDisable(GL_SAMPLE_SHADING);
     target.finishDrawing(options.columns);

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "prt/gpu/gpu_background.h"
+#include "prt/gpu/gpu_mirrors.h"
 #include "prt/gpu/gpu_radiance.h"
 #include "prt/gpu/gpu_scene.h"
 #include "prt/gpu/gpu_target.h"
@@ -21,6 +22,7 @@ struct GpuObject {
 struct GpuViewOptions {
     const GpuBackground* background = nullptr;  ///< seen where no surface is; black without
     Mat3d worldFromBackground{};                ///< a rotation: L(R⁻¹ω)
+    const GpuMirrors* mirrors = nullptr;        ///< what mirror-like surfaces show of the light
     PixelColumns columns{};      ///< that are drawn; the camera sees the whole width as ever
     bool wireFrame = false;      ///< the visible edges of triangles are drawn over their surfaces
     float wireRadiance = 0.18f;  ///< what is brighter gets dark lines, what is darker bright ones

@@ -2,20 +2,18 @@
 
 #include <epoxy/gl.h>
 
+#include "prt/gpu/gl_objects.h"
+
 namespace prt {
 
-ScreenPass::ScreenPass(const ShaderText& fragmentShader, TextureFilter filter)
-    : program_(linkProgram(findShader("shaders/screen.vert"), fragmentShader)) {
+ScreenPass::ScreenPass(const ShaderText& fragmentShader, TextureFilter filter,
+                       std::span<const ShaderText> called)
+    : program_(linkProgram(findShader("shaders/screen.vert"), fragmentShader, {}, called)) {
     unsigned name = 0;
     glGenVertexArrays(1, &name);
     layout_ = GlName(name, [](unsigned given) { glDeleteVertexArrays(1, &given); });
-    glGenSamplers(1, &name);
-    sampler_ = GlName(name, [](unsigned given) { glDeleteSamplers(1, &given); });
-    const GLint glFilter = filter == TextureFilter::linear ? GL_LINEAR : GL_NEAREST;
-    glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, glFilter);
-    glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, glFilter);
-    glSamplerParameteri(name, GL_TEXTURE_WRAP_S, GL_REPEAT);
-    glSamplerParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    sampler_ = makeSampler(GL_REPEAT, GL_CLAMP_TO_EDGE,
+                           filter == TextureFilter::linear ? GL_LINEAR : GL_NEAREST);
 }
 
 void ScreenPass::use(unsigned texture) const {

@@ -3,7 +3,7 @@
 namespace prt {
 
 /// Where the shaders have what they are given: the locations and bindings of shaders/relight.vert
-/// and surface.frag, and of display.frag and background.frag.
+/// surface.frag and mirrors.frag, and of display.frag and background.frag.
 namespace uniforms {
 inline constexpr int kClipFromEyeSpace = 0;
 inline constexpr int kEye = 1;
@@ -15,6 +15,11 @@ inline constexpr int kEmissiveFactor = 17;
 inline constexpr int kTextureUvSets = 18;
 inline constexpr int kAlphaCutoff = 19;
 inline constexpr int kLineRadiance = 20;
+inline constexpr int kMetallicRoughnessFactors = 21;
+inline constexpr int kEnvironmentFromObject = 22;
+inline constexpr int kLevelCount = 23;
+inline constexpr int kRoughnesses = 32;
+inline constexpr int kMostRoughnesses = 16;
 
 inline constexpr int kExposure = 0;
 inline constexpr int kToneCurve = 1;
@@ -28,6 +33,7 @@ namespace attributes {
 inline constexpr unsigned kPosition = 0;
 inline constexpr unsigned kUvSets = 1;
 inline constexpr unsigned kColor = 2;
+inline constexpr unsigned kNormal = 3;
 }  // namespace attributes
 
 namespace buffers {
@@ -41,6 +47,10 @@ inline constexpr int kCount = 4;
 namespace textures {
 inline constexpr unsigned kBaseColor = 0;
 inline constexpr unsigned kEmission = 1;
+inline constexpr unsigned kMetallicRoughness = 2;
+inline constexpr unsigned kEnvironment = 3;
+inline constexpr unsigned kMirrors = 4;
+inline constexpr unsigned kSpecularAlbedos = 5;
 }  // namespace textures
 
 }  // namespace prt

@@ -61,12 +61,14 @@ ShaderText findShader(std::string_view name) {
 }
 
 GlName linkProgram(const ShaderText& vertexShader, const ShaderText& fragmentShader,
-                   const std::string& definitions) {
+                   const std::string& definitions, std::span<const ShaderText> called) {
     const GlName vertex = compileShader(GL_VERTEX_SHADER, vertexShader, definitions);
     const GlName fragment = compileShader(GL_FRAGMENT_SHADER, fragmentShader, definitions);
     GlName program(glCreateProgram(), [](unsigned given) { glDeleteProgram(given); });
     glAttachShader(program.get(), vertex.get());
     glAttachShader(program.get(), fragment.get());
+    for (const ShaderText& part : called)
+        glAttachShader(program.get(), compileShader(GL_FRAGMENT_SHADER, part, definitions).get());
     glLinkProgram(program.get());
     GLint isLinked = GL_FALSE;
     glGetProgramiv(program.get(), GL_LINK_STATUS, &isLinked);
@@ -77,6 +79,15 @@ GlName linkProgram(const ShaderText& vertexShader, const ShaderText& fragmentSha
                         firstLine(readLog(program.get(), glGetProgramiv, glGetProgramInfoLog)),
                     std::string(vertexShader.name));
     return program;
+}
+
+GlName linkSurfaceProgram(const std::string& definitions, bool isMirrored) {
+    const ShaderText vertex = findShader("shaders/relight.vert");
+    const ShaderText fragment = findShader("shaders/surface.frag");
+    if (!isMirrored) return linkProgram(vertex, fragment, definitions);
+    const std::array called = {findShader("shaders/mirrors.frag"),
+                               findShader("shaders/lat_long.frag")};
+    return linkProgram(vertex, fragment, definitions + "#define MIRRORED\n", called);
 }
 
 }  // namespace prt

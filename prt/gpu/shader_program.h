@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,9 +19,14 @@ ShaderText findShader(std::string_view name);
 
 /// A program of two shaders.
 ///
-/// @param definitions  lines of #define for both, behind their first lines
+/// @param definitions  lines of #define for all, behind their first lines
+/// @param called       fragment shaders with functions that fragmentShader calls
 /// @throws Error       unsupported, with the shader's name and what the driver says first of it
 GlName linkProgram(const ShaderText& vertexShader, const ShaderText& fragmentShader,
-                   const std::string& definitions = {});
+                   const std::string& definitions = {}, std::span<const ShaderText> called = {});
+
+/// The program of shaders/relight.vert and surface.frag, and of mirrors.frag where they say
+/// MIRRORED.
+GlName linkSurfaceProgram(const std::string& definitions, bool isMirrored = false);
 
 }  // namespace prt

@@ -27,8 +27,8 @@ inline Rgba8Image makeRandomTexels(int width, int height, RandomStream& random) 
 }
 
 /// The room of other tests, with all that materials can say: textures of every wrap and filter on
-/// both sets of coordinates, colours of vertices, cut-outs, emission; a sheet seen from behind and
-/// a wall that must not be.
+/// both sets of coordinates, colours of vertices, cut-outs, emission, metal; a sheet seen from
+/// behind and a wall that must not be.
 inline Scene makeDecoratedRoom() {
     RandomStream random(7, 1);
     Scene scene = makeRoomAround({{makeSphere({0.3f, 0.4f, 0.4f}, 0.4f, 24), {0.9f, 0.9f, 0.5f}},
@@ -66,6 +66,13 @@ inline Scene makeDecoratedRoom() {
     materials[4].baseColorTexture = TextureUse{0, 1};
     materials[4].alphaMode = AlphaMode::mask;
     materials[4].alphaCutoff = 0.35f;
+    scene.images.push_back({"noise", "image/png", {}, makeRandomTexels(6, 5, random)});
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        materials[i].metallicFactor = 0.2f * static_cast<float>(i);
+        materials[i].roughnessFactor = 1.1f - 0.25f * static_cast<float>(i);
+    }
+    materials[2].metallicRoughnessTexture = TextureUse{0, 1};  // for which there are no coordinates
+    materials[3].metallicRoughnessTexture = TextureUse{3, 1, TextureWrap::mirroredRepeat};
     std::ranges::reverse(scene.meshes);  // what is behind is drawn last
     return scene;
 }

@@ -35,9 +35,8 @@ TEST_F(ShaderProgram, ShadersOfTheLibraryCompileInEveryForm) {
     for (const char* bytes : {"4", "2", "1"}) {
         for (const char* clustered : {"0", "1"}) {
             const GlName program =
-                linkProgram(findShader("shaders/relight.vert"), findShader("shaders/surface.frag"),
-                            std::string("#define RELIT 0\n#define STORED_BYTES ") + bytes +
-                                "\n#define CLUSTERED " + clustered + "\n");
+                linkSurfaceProgram(std::string("#define RELIT 0\n#define STORED_BYTES ") + bytes +
+                                   "\n#define CLUSTERED " + clustered + "\n");
             programCount += program.get() != 0;
         }
     }

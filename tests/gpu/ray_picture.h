@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "prt/relight/exit_radiance.h"
+#include "prt/render/exit_shading.h"
+#include "prt/render/path_walk.h"
 #include "prt/scene/surface_color.h"
 #include "prt/trace/ray_scene.h"
 
@@ -19,12 +21,14 @@ class RayPicture {
     static constexpr int kHeight = 120;
 
     /// @param radiance  of every vertex
-    RayPicture(const Scene& scene, std::vector<ExitRadiance> radiance, const Camera& camera)
+    RayPicture(const Scene& scene, std::vector<ExitRadiance> radiance, const Camera& camera,
+               const MirrorEnvironment* mirrors = nullptr)
         : scene_(scene),
           rays_(scene),
           camera_(camera),
           offsets_(vertexOffsets(scene)),
-          radiance_(std::move(radiance)) {}
+          radiance_(std::move(radiance)),
+          mirrors_(mirrors) {}
 
     /// @param x, y  in pixels from the top left corner
     Vec3f directionThrough(double x, double y) const {
@@ -49,17 +53,13 @@ class RayPicture {
         }
         if (!seen.hit.escaped) {
             const SurfacePoint& point = seen.hit.point;
-            const std::uint32_t* corners = &scene_.meshes[point.mesh].indices[3 * point.triangle];
-            const auto interpolate = [&](Vec3f ExitRadiance::*member) {
-                const auto ofCorner = [&](int i) {
-                    return radiance_[offsets_[point.mesh] + corners[i]].*member;
-                };
-                return ofCorner(0) * (1.0f - point.u - point.v) + ofCorner(1) * point.u +
-                       ofCorner(2) * point.v;
-            };
+            const ExitRadiance exit =
+                interpolateExit(scene_.meshes[point.mesh], point,
+                                std::span(radiance_).subspan(offsets_[point.mesh]));
             seen.radiance =
-                evaluateAlbedo(scene_, point) * interpolate(&ExitRadiance::perBaseColor) +
-                interpolate(&ExitRadiance::constant) + evaluateEmission(scene_, point);
+                shadePoint(scene_, point, exit, placePathOrigin(scene_, rays_, seen.hit).normal,
+                           -ray.direction, mirrors_) +
+                evaluateEmission(scene_, point);
         }
         return seen;
     }
@@ -92,6 +92,7 @@ class RayPicture {
     Camera camera_;
     std::vector<std::size_t> offsets_;
     std::vector<ExitRadiance> radiance_;
+    const MirrorEnvironment* mirrors_;
 };
 
 struct Agreement {
