@@ -65,7 +65,14 @@ std::size_t CameraRays::raysPerPixel() const {
 
 std::vector<SeenPoint> CameraRays::findSeenPoints(std::size_t firstPixel,
                                                   std::size_t pixelCount) const {
-    std::vector<Ray> rays = makeRays(firstPixel, pixelCount);
+    return followRays(makeRays(firstPixel, pixelCount));
+}
+
+SeenPoint CameraRays::findSeenPoint(double x, double y) const {
+    return followRays({{eye_, directionThrough(x, y)}}).front();
+}
+
+std::vector<SeenPoint> CameraRays::followRays(std::vector<Ray> rays) const {
     std::vector<Hit> hits(rays.size());
     rays_.intersect(rays, hits);
     passBackFaces(rays, hits);

@@ -35,9 +35,13 @@ class CameraRays {
     /// one-sided surfaces to what they see; pixel after pixel.
     std::vector<SeenPoint> findSeenPoints(std::size_t firstPixel, std::size_t pixelCount) const;
 
+    /// The same of one ray, through a place on the picture in pixels from its top left corner.
+    SeenPoint findSeenPoint(double x, double y) const;
+
   private:
     /// Unit direction through a place on the picture, in pixels from its top left corner.
     Vec3f directionThrough(double x, double y) const;
+    std::vector<SeenPoint> followRays(std::vector<Ray> rays) const;
     std::vector<Ray> makeRays(std::size_t firstPixel, std::size_t pixelCount) const;
     void passBackFaces(std::vector<Ray>& rays, std::vector<Hit>& hits) const;
     bool isInvisible(const Hit& hit) const;
