@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -99,6 +98,7 @@ struct LightRig::Content {
     void collect(std::span<const LightChoice> lights);
     const Environment& resampled(const std::shared_ptr<const ReadLight>& light, int height);
     Environment drawSum();
+    const std::shared_ptr<const Environment>& share();
 
     BackgroundLoads<ReadLight> loads;
     std::vector<std::string> names;
@@ -106,7 +106,7 @@ struct LightRig::Content {
     std::vector<Part> parts;
     std::size_t revision = 0;
     Lighting lighting = Lighting(kMaxBandCount);
-    std::optional<Environment> environment;
+    std::shared_ptr<const Environment> environment;  ///< null until it is asked for
     /// Images of the parts in the size of the last sum, those that have another.
     std::map<std::shared_ptr<const ReadLight>, Environment> resampledParts;
 };
@@ -152,6 +152,16 @@ Environment LightRig::Content::drawSum() {
     return sum;
 }
 
+const std::shared_ptr<const Environment>& LightRig::Content::share() {
+    if (environment) return environment;
+    // A single image that is neither turned nor scaled is shown as it is, not as a copy.
+    if (parts.size() == 1 && parts[0].stops == 0.0 && parts[0].azimuthDegrees == 0.0)
+        environment = {parts[0].light, &parts[0].light->environment};
+    else
+        environment = std::make_shared<const Environment>(drawSum());
+    return environment;
+}
+
 LightRig::LightRig(const ImageLimits& limits) : content_(std::make_unique<Content>(limits)) {}
 
 LightRig::~LightRig() = default;
@@ -181,12 +191,11 @@ const Lighting& LightRig::sum() const {
 }
 
 const Environment& LightRig::environment() const {
-    // A single image that is neither turned nor scaled is shown as it is, not a copy of it.
-    if (content_->parts.size() == 1 && content_->parts[0].stops == 0.0 &&
-        content_->parts[0].azimuthDegrees == 0.0)
-        return content_->parts[0].light->environment;
-    if (!content_->environment) content_->environment = content_->drawSum();
-    return *content_->environment;
+    return *content_->share();
+}
+
+std::shared_ptr<const Environment> LightRig::sharedEnvironment() const {
+    return content_->share();
 }
 
 }  // namespace prt::viewer

@@ -37,6 +37,8 @@ class LightRig {
     /// single image is as large as it came; the sum of several has the size of the largest, up to
     /// 2048×1024. Drawn when first asked for; stays until the next update.
     const Environment& environment() const;
+    /// The same, for those who keep it longer; the same object as long as the sum is.
+    std::shared_ptr<const Environment> sharedEnvironment() const;
 
   private:
     struct Content;

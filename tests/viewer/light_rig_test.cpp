@@ -78,6 +78,8 @@ TEST(LightRig, ASingleImageIsShownAsItIs) {
     LightChoice light{.source = folder.path() / "noise.exr"};
     rig.finish({&light, 1});
     EXPECT_EQ(rig.environment().radiance.pixels, noise.pixels);
+    const std::shared_ptr<const Environment> kept = rig.sharedEnvironment();
+    EXPECT_EQ(kept.get(), &rig.environment());
 
     // Turned by whole texels it is the same ones.
     constexpr int kColumns = 5;
@@ -89,6 +91,7 @@ TEST(LightRig, ASingleImageIsShownAsItIs) {
                 (rig.environment().radiance.at(x, y) - noise.at((x + kColumns) % 64, y)).length(),
                 1e-6f);
     EXPECT_LT(largestDifference(projected(rig), rig.sum()), 1e-6);
+    EXPECT_EQ(kept->radiance.pixels, noise.pixels);
 }
 
 TEST(LightRig, OtherMapsBecomeLatLong) {
@@ -152,7 +155,7 @@ TEST(LightRig, RevisionChangesWithTheSumAndOnlyThen) {
 
 TEST(LightRig, ReadsInTheBackground) {
     LightRig rig{ImageLimits{}};
-    const LightChoice light{.source = "daylight:10,40"};
+    const LightChoice light{.source = "sky:10,40"};
     rig.update({&light, 1});
     // However long that takes: what is not read adds nothing.
     while (rig.statuses()[0].stage == LoadingStatus::Stage::waiting) {
