@@ -59,6 +59,8 @@ class BackgroundLoads {
             return std::find(names.begin(), names.end(), name) == names.end();
         };
         takeOver();
+        if (std::equal(names.begin(), names.end(), names_.begin(), names_.end())) return;
+        names_.assign(names.begin(), names.end());
         std::erase_if(entries_, [&](const auto& entry) { return isForgotten(entry.first); });
         {
             const std::lock_guard lock(mutex_);
@@ -129,7 +131,8 @@ class BackgroundLoads {
     }
 
     const Read read_;
-    std::map<std::string, Entry> entries_;  ///< of the last update
+    std::vector<std::string> names_;        ///< of the last update
+    std::map<std::string, Entry> entries_;  ///< of them
 
     std::mutex mutex_;
     std::condition_variable changed_;
