@@ -71,6 +71,19 @@ Mat3d rotationFromDegrees(const Vec3d& degrees) {
     return rotationZ(radians.z) * rotationY(radians.y) * rotationX(radians.x);
 }
 
+Vec3d degreesFromRotation(const Mat3d& rotation) {
+    constexpr double kLeastCosine = 1e-7;  // below it, x and z cannot be told apart
+    const double cosine = std::hypot(rotation[0][0], rotation[1][0]);
+    Vec3d radians(0.0, std::atan2(-rotation[2][0], cosine), 0.0);
+    if (cosine > kLeastCosine) {
+        radians.x = std::atan2(rotation[2][1], rotation[2][2]);
+        radians.z = std::atan2(rotation[1][0], rotation[0][0]);
+    } else {
+        radians.x = std::atan2(-rotation[1][2], rotation[1][1]);
+    }
+    return radians * (180.0 / std::numbers::pi);
+}
+
 std::string lowerSuffix(const std::string& path) {
     std::string suffix = std::filesystem::path(path).extension().string();
     for (char& letter : suffix)

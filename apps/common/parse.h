@@ -29,6 +29,8 @@ std::optional<int> parseBounceCount(std::string_view text);  ///< 0 … 1000, or
 
 /// Turned by so many degrees about the world's x axis, then y, then z.
 Mat3d rotationFromDegrees(const Vec3d& degrees);
+/// The reverse, y between −90 and 90; where y is ±90, x and z turn about one axis, and z is 0.
+Vec3d degreesFromRotation(const Mat3d& rotation);
 
 /// The path's suffix with its full stop, in lower case.
 std::string lowerSuffix(const std::string& path);
