@@ -21,7 +21,7 @@ TEST(LightText, IsFoundAgainFromItsText) {
     }
 }
 
-TEST(LightText, OfEverySlidersEndsIsALight) {
+TEST(LightText, OfEverySliderEndIsALight) {
     for (const LightKind kind : kKinds)
         for (const auto end : {&LightNumber::least, &LightNumber::most, &LightNumber::usual}) {
             LightText light{.kind = kind};
