@@ -12,6 +12,7 @@
 #include "prt/base/assert.h"
 #include "prt/base/error.h"
 #include "prt/gpu/gl_objects.h"
+#include "prt/gpu/gpu_table.h"
 #include "prt/gpu/panel_light.h"
 #include "prt/gpu/shader_interface.h"
 #include "prt/gpu/shader_program.h"
@@ -28,20 +29,6 @@ const CompressedLayer& requireVectors(const CompressedTransfer& transfer, Transp
                     {}, "choose a transport of vectors, or draw on the CPU");
     PRT_ASSERT(isComplete(transfer, layer), "transfer for each receiver");
     return layer;
-}
-
-std::size_t panelBytes(const CoefficientTable& table) {
-    return table.rowCount() * CoefficientTable::kPanelWidth * table.elementBytes();
-}
-
-/// Panel after panel, as they are: one at a time is in memory.
-GlName uploadTable(const CoefficientTable& table) {
-    GlName buffer = makeBuffer(table.panelCount() * panelBytes(table), "transfer");
-    for (std::size_t panel = 0; panel < table.panelCount(); ++panel) {
-        writeBuffer(buffer, panel * panelBytes(table), table.panel(panel));
-        table.releaseMemory();
-    }
-    return buffer;
 }
 
 GlName linkFor(const CompressedLayer& layer) {
@@ -83,7 +70,7 @@ struct GpuRelighter::Content {
           vertexCount(asset.receiverOfVertex.size()),
           encoding(layer.table.encoding) {
         const CoefficientTable& table = layer.table.numbers;
-        requireShaderBuffers(table.panelCount() * panelBytes(table));
+        requireShaderBuffers(gpuTableBytes(table));
         program = linkFor(layer);
         glProgramUniform1ui(program.get(), uniforms::kReceiverCount,
                             static_cast<GLuint>(table.rowCount()));
