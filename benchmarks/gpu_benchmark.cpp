@@ -21,6 +21,7 @@
 
 #include "prt/gpu/gl_context.h"
 #include "prt/gpu/gpu_display.h"
+#include "prt/gpu/gpu_glossy_relighter.h"
 #include "prt/gpu/gpu_relighter.h"
 #include "prt/gpu/gpu_vertex_radiance.h"
 #include "prt/gpu/gpu_view.h"
@@ -269,6 +270,21 @@ void glossyOnCpu(benchmark::State& state, const Form& form) {
     });
 }
 
+void glossyOnCard(benchmark::State& state, const Form& form) {
+    openContext();
+    const Scene scene = makeMiddlingTeapot();
+    Stage stage(scene);
+    const CompressedTransfer transfer = makeTransfer(scene.vertexCount(), form);
+    GpuGlossyRelighter relighter(transfer, form.transport, describeReceivers(scene, transfer),
+                                 GltfViewTable({.bandCount = kBandCount}));
+    timeFrames(state, static_cast<double>(transfer.layers[0].table.numbers.byteCount()), [&] {
+        relighter.relight(stage.turnLight());
+        relighter.lookFrom(stage.camera().eye);
+        stage.draw(relighter);
+        stage.show();
+    });
+}
+
 enum class Part { upload, surface, background, display };
 
 void parts(benchmark::State& state, Part part, Scene (*makeSceneOf)()) {
@@ -312,6 +328,9 @@ BENCHMARK_CAPTURE(onCard, teapot100k_25x3_clusters, makeLargeTeapot, kColoredClu
     ->Apply(asWallClock);
 BENCHMARK_CAPTURE(onCpu, teapot100k_25x3_clusters, makeLargeTeapot, kColoredClusters)
     ->Apply(asWallClock);
+BENCHMARK_CAPTURE(glossyOnCard, teapot51k_u8, kGreyMatrices)->Apply(asWallClock);
+BENCHMARK_CAPTURE(glossyOnCard, teapot51k_rgb_u8, kColoredMatrices)->Apply(asWallClock);
+BENCHMARK_CAPTURE(glossyOnCard, teapot51k_rgb_clusters, kMatrixClusters)->Apply(asWallClock);
 BENCHMARK_CAPTURE(glossyOnCpu, teapot51k_u8, kGreyMatrices)->Apply(asWallClock);
 BENCHMARK_CAPTURE(glossyOnCpu, teapot51k_rgb_u8, kColoredMatrices)->Apply(asWallClock);
 BENCHMARK_CAPTURE(glossyOnCpu, teapot51k_rgb_clusters, kMatrixClusters)->Apply(asWallClock);

@@ -1,7 +1,8 @@
 # Puts the texts of shaders/ into prt_gpu, so that programs need no files: prt/gpu/shader_texts.h in the build folder.
 function(prt_embed_shaders)
     file(GLOB shaders CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}"
-        "${PROJECT_SOURCE_DIR}/shaders/*.vert" "${PROJECT_SOURCE_DIR}/shaders/*.frag")
+        "${PROJECT_SOURCE_DIR}/shaders/*.vert" "${PROJECT_SOURCE_DIR}/shaders/*.frag"
+        "${PROJECT_SOURCE_DIR}/shaders/*.comp")
     set(texts "")
     foreach(shader IN LISTS shaders)
         set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${shader}")

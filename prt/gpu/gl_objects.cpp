@@ -35,6 +35,12 @@ void writeBuffer(const GlName& buffer, std::size_t offset, std::span<const std::
                     static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }
 
+void readBuffer(const GlName& buffer, std::span<std::byte> bytes) {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glBindBuffer(GL_COPY_READ_BUFFER, buffer.get());
+    glGetBufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
 void requireShaderBuffers(std::size_t largestBytes) {
     GLint blockCount = 0;
     glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blockCount);

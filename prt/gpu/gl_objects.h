@@ -17,6 +17,9 @@ GlName makeBuffer(std::size_t byteCount, const std::string& what);
 /// Writes to bytes [offset, offset + bytes.size()) of a buffer.
 void writeBuffer(const GlName& buffer, std::size_t offset, std::span<const std::byte> bytes);
 
+/// Reads a buffer's first bytes, when all that was asked for before is done.
+void readBuffer(const GlName& buffer, std::span<std::byte> bytes);
+
 /// A buffer that holds these values.
 template <class Value>
 GlName makeBuffer(std::span<const Value> values, const std::string& what) {

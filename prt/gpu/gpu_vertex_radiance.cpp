@@ -1,7 +1,6 @@
 #include "prt/gpu/gpu_vertex_radiance.h"
 
 #include <algorithm>
-#include <vector>
 
 #include <epoxy/gl.h>
 
@@ -63,10 +62,28 @@ void GpuVertexRadiance::upload(std::span<const ExitRadiance> vertexRadiance) {
                               .mirrorVisibility = radiance.mirrorVisibility,
                               .constant = radiance.constant};
     });
-    hasMirrors_ = std::ranges::any_of(vertexRadiance, [](const ExitRadiance& radiance) {
+    chooseProgram(std::ranges::any_of(vertexRadiance, [](const ExitRadiance& radiance) {
         return radiance.mirrorVisibility > 0.0f;
-    });
-    if (hasMirrors_ && mirroredProgram_.get() == 0) mirroredProgram_ = linkFor(true);
+    }));
+}
+
+const GlName& GpuVertexRadiance::buffer(bool hasMirrors) {
+    chooseProgram(hasMirrors);
+    return buffer_;
+}
+
+void GpuVertexRadiance::chooseProgram(bool hasMirrors) {
+    if (hasMirrors && mirroredProgram_.get() == 0) mirroredProgram_ = linkFor(true);
+    hasMirrors_ = hasMirrors;
+}
+
+std::vector<ExitRadiance> GpuVertexRadiance::read() const {
+    std::vector<PaddedRadiance> padded(vertexCount_);
+    readBuffer(buffer_, std::as_writable_bytes(std::span(padded)));
+    std::vector<ExitRadiance> vertices;
+    for (const PaddedRadiance& vertex : padded)
+        vertices.push_back({vertex.perBaseColor, vertex.constant, vertex.mirrorVisibility});
+    return vertices;
 }
 
 }  // namespace prt

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "prt/gpu/gl_name.h"
 #include "prt/gpu/gpu_radiance.h"
@@ -8,8 +9,8 @@
 
 namespace prt {
 
-/// Radiance that has been made on the CPU: by Relighter, which is faster than a rasteriser on the
-/// same CPU would be, or of glossy materials towards an eye.
+/// Radiance that has been made elsewhere: on the CPU by Relighter, which is faster than a
+/// rasteriser on the same CPU would be, or of glossy materials towards an eye.
 class GpuVertexRadiance final : public GpuRadiance {
   public:
     /// Black.
@@ -26,7 +27,18 @@ class GpuVertexRadiance final : public GpuRadiance {
     /// @throws Error          unsupported where a shader for mirrors does not compile
     void upload(std::span<const ExitRadiance> vertexRadiance);
 
+    /// What a compute shader is to write: of each vertex perBaseColor, mirrorVisibility, constant
+    /// and a number that is not used.
+    ///
+    /// @param hasMirrors  whether a vertex may have mirrorVisibility
+    /// @throws Error      unsupported where a shader for mirrors does not compile
+    const GlName& buffer(bool hasMirrors);
+
+    std::vector<ExitRadiance> read() const;
+
   private:
+    void chooseProgram(bool hasMirrors);
+
     std::size_t vertexCount_;
     GlName program_;
     GlName mirroredProgram_;  ///< empty before the first vertex that shows a mirror

@@ -3,7 +3,8 @@
 namespace prt {
 
 /// Where the shaders have what they are given: the locations and bindings of shaders/relight.vert
-/// surface.frag and mirrors.frag, and of display.frag and background.frag.
+/// surface.frag and mirrors.frag, of display.frag and background.frag, and of receive.comp and
+/// reflect.comp.
 namespace uniforms {
 inline constexpr int kClipFromEyeSpace = 0;
 inline constexpr int kEye = 1;
@@ -27,6 +28,14 @@ inline constexpr int kToneCurve = 1;
 inline constexpr int kForward = 0;
 inline constexpr int kRightward = 1;
 inline constexpr int kUpward = 2;
+
+inline constexpr int kColumnCount = 4;
+inline constexpr int kRowCount = 5;
+inline constexpr int kPaddedCount = 4;
+
+inline constexpr int kVertexCount = 3;
+inline constexpr int kReflectedEye = 4;
+inline constexpr int kOpen = 8;
 }  // namespace uniforms
 
 namespace attributes {
@@ -42,6 +51,17 @@ inline constexpr unsigned kReceivers = 1;
 inline constexpr unsigned kLight = 2;  ///< or products
 inline constexpr unsigned kFirstProducts = 3;
 inline constexpr int kCount = 4;
+
+inline constexpr unsigned kRows = 1;  ///< or the first product of each cluster
+inline constexpr unsigned kReceived = 3;
+
+inline constexpr unsigned kSurfaces = 0;
+inline constexpr unsigned kVertices = 1;
+inline constexpr unsigned kElements = 2;
+inline constexpr unsigned kIncident = 3;
+inline constexpr unsigned kRelit = 4;
+inline constexpr unsigned kArriving = 5;
+inline constexpr unsigned kDirect = 6;
 }  // namespace buffers
 
 namespace textures {

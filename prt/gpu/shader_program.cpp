@@ -52,6 +52,20 @@ GlName compileShader(GLenum kind, const ShaderText& shader, const std::string& d
     return name;
 }
 
+/// Links what is attached.
+///
+/// @param shader  that an error names, with what is said of the others
+void link(const GlName& program, const ShaderText& shader, const std::string& others) {
+    glLinkProgram(program.get());
+    GLint isLinked = GL_FALSE;
+    glGetProgramiv(program.get(), GL_LINK_STATUS, &isLinked);
+    if (!isLinked)
+        throw Error(ErrorCode::unsupported,
+                    "the graphics driver does not link this shader" + others + ": " +
+                        firstLine(readLog(program.get(), glGetProgramiv, glGetProgramInfoLog)),
+                    std::string(shader.name));
+}
+
 }  // namespace
 
 ShaderText findShader(std::string_view name) {
@@ -69,15 +83,15 @@ GlName linkProgram(const ShaderText& vertexShader, const ShaderText& fragmentSha
     glAttachShader(program.get(), fragment.get());
     for (const ShaderText& part : called)
         glAttachShader(program.get(), compileShader(GL_FRAGMENT_SHADER, part, definitions).get());
-    glLinkProgram(program.get());
-    GLint isLinked = GL_FALSE;
-    glGetProgramiv(program.get(), GL_LINK_STATUS, &isLinked);
-    if (!isLinked)
-        throw Error(ErrorCode::unsupported,
-                    "the graphics driver does not link this shader with " +
-                        std::string(fragmentShader.name) + ": " +
-                        firstLine(readLog(program.get(), glGetProgramiv, glGetProgramInfoLog)),
-                    std::string(vertexShader.name));
+    link(program, vertexShader, " with " + std::string(fragmentShader.name));
+    return program;
+}
+
+GlName linkComputeProgram(const ShaderText& shader, const std::string& definitions) {
+    const GlName compute = compileShader(GL_COMPUTE_SHADER, shader, definitions);
+    GlName program(glCreateProgram(), [](unsigned given) { glDeleteProgram(given); });
+    glAttachShader(program.get(), compute.get());
+    link(program, shader, "");
     return program;
 }
 

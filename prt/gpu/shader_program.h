@@ -29,4 +29,7 @@ GlName linkProgram(const ShaderText& vertexShader, const ShaderText& fragmentSha
 /// MIRRORED.
 GlName linkSurfaceProgram(const std::string& definitions, bool isMirrored = false);
 
+/// A program of a compute shader, with the same definitions and errors.
+GlName linkComputeProgram(const ShaderText& shader, const std::string& definitions = {});
+
 }  // namespace prt

@@ -43,6 +43,20 @@ TEST_F(ShaderProgram, ShadersOfTheLibraryCompileInEveryForm) {
     EXPECT_EQ(programCount, 6);
 }
 
+TEST_F(ShaderProgram, ComputeShaderThatDoesNotCompileIsNamedWithItsFirstFault) {
+    const ShaderText broken{"shaders/broken.comp",
+                            "#version 430 core\nlayout(local_size_x = 1) in;\n"
+                            "void main() { undeclared = VALUE; }\n"};
+    try {
+        linkComputeProgram(broken, "#define VALUE 1.0\n");
+        FAIL() << "it compiled";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::unsupported);
+        EXPECT_EQ(error.where(), "shaders/broken.comp");
+        EXPECT_NE(std::string(error.what()).find("undeclared"), std::string::npos) << error.what();
+    }
+}
+
 constexpr ShaderText kPlainVertex{"shaders/plain.vert",
                                   "#version 430 core\nvoid main() { gl_Position = vec4(0.0); }\n"};
 
