@@ -1,25 +1,24 @@
 #version 430 core
 // Turns linear radiance into sRGB code values: exposure, tone curve, encoding.
+//
+// TONE_CURVE  0: none, 1: ACES, 2: neutral
 
 in vec2 place;
 
 layout(location = 0) uniform float exposure;
-layout(location = 1) uniform int toneCurve;
 layout(binding = 0) uniform sampler2D radiance;
 
 layout(location = 0) out vec4 codeValues;
 
-const int kAces = 1;
-const int kNeutral = 2;
-
+#if TONE_CURVE == 1
 // Narkowicz' fit of the ACES filmic curve [Narkowicz15].
-vec3 applyAces(vec3 x) {
+vec3 applyCurve(vec3 x) {
     vec3 bounded = clamp(x, 0.0, 100.0);
     return bounded * (2.51 * bounded + 0.03) / (bounded * (2.43 * bounded + 0.59) + 0.14);
 }
-
+#elif TONE_CURVE == 2
 // Khronos PBR Neutral [Khronos24].
-vec3 applyNeutral(vec3 x) {
+vec3 applyCurve(vec3 x) {
     const float kFresnel = 0.04;
     const float kCompressionStart = 0.8 - kFresnel;
     const float kDesaturation = 0.15;
@@ -33,11 +32,11 @@ vec3 applyNeutral(vec3 x) {
     float saturation = 1.0 / (kDesaturation * (peak - compressed) + 1.0);
     return mix(vec3(compressed), matte * (compressed / peak), saturation);
 }
-
+#else
 vec3 applyCurve(vec3 x) {
-    if (toneCurve == kAces) return applyAces(x);
-    return toneCurve == kNeutral ? applyNeutral(x) : x;
+    return x;
 }
+#endif
 
 vec3 encodeSrgb(vec3 linear) {
     vec3 powers = 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055;

@@ -10,8 +10,9 @@
 namespace prt {
 
 GpuBackground::GpuBackground(const Environment& environment)
-    : pass_(findShader("shaders/background.frag"), TextureFilter::linear,
-            std::array{findShader("shaders/lat_long.frag")}),
+    : pass_(findShader("shaders/background.frag"),
+            {.filter = TextureFilter::linear,
+             .called = std::array{findShader("shaders/lat_long.frag")}}),
       texture_(uploadLatLong(environment)) {}
 
 void GpuBackground::draw(const ViewFrame& view, const Mat3d& worldFromBackground) const {

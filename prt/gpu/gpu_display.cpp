@@ -6,14 +6,27 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include <epoxy/gl.h>
 
 #include "prt/gpu/shader_interface.h"
 
 namespace prt {
+namespace {
 
-GpuDisplay::GpuDisplay() : pass_(findShader("shaders/display.frag")) {}
+/// A rasteriser on the CPU would go through all curves of a program that knows them all.
+ScreenPass makePass(ToneCurve curve) {
+    const std::string number = std::to_string(static_cast<int>(curve));
+    ScreenPassOptions options;
+    options.definitions = "#define TONE_CURVE " + number + "\n";
+    return ScreenPass(findShader("shaders/display.frag"), options);
+}
+
+}  // namespace
+
+GpuDisplay::GpuDisplay()
+    : passes_{makePass(ToneCurve::none), makePass(ToneCurve::aces), makePass(ToneCurve::neutral)} {}
 
 void GpuDisplay::draw(const GpuTarget& radiance, const DisplayOptions& options,
                       const PixelColumns& columns) const {
@@ -23,10 +36,10 @@ void GpuDisplay::draw(const GpuTarget& radiance, const DisplayOptions& options,
     const int end = std::clamp(columns.end, first, viewport[2]);
     glScissor(viewport[0] + first, viewport[1], end - first, viewport[3]);
     glEnable(GL_SCISSOR_TEST);
-    pass_.use(radiance.texture());
+    const ScreenPass& pass = passes_[static_cast<std::size_t>(options.toneCurve)];
+    pass.use(radiance.texture());
     glUniform1f(uniforms::kExposure, std::exp2(options.exposureStops));
-    glUniform1i(uniforms::kToneCurve, static_cast<int>(options.toneCurve));
-    pass_.draw();
+    pass.draw();
     glDisable(GL_SCISSOR_TEST);
 }
 

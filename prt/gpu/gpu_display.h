@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "prt/gpu/gpu_target.h"
 #include "prt/gpu/screen_pass.h"
 #include "prt/image/tone_curve.h"
@@ -19,7 +21,7 @@ class GpuDisplay {
               const PixelColumns& columns = {}) const;
 
   private:
-    ScreenPass pass_;
+    std::array<ScreenPass, 3> passes_;  ///< of each ToneCurve
 };
 
 }  // namespace prt

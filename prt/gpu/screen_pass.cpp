@@ -6,14 +6,14 @@
 
 namespace prt {
 
-ScreenPass::ScreenPass(const ShaderText& fragmentShader, TextureFilter filter,
-                       std::span<const ShaderText> called)
-    : program_(linkProgram(findShader("shaders/screen.vert"), fragmentShader, {}, called)) {
+ScreenPass::ScreenPass(const ShaderText& fragmentShader, const ScreenPassOptions& options)
+    : program_(linkProgram(findShader("shaders/screen.vert"), fragmentShader, options.definitions,
+                           options.called)) {
     unsigned name = 0;
     glGenVertexArrays(1, &name);
     layout_ = GlName(name, [](unsigned given) { glDeleteVertexArrays(1, &given); });
     sampler_ = makeSampler(GL_REPEAT, GL_CLAMP_TO_EDGE,
-                           filter == TextureFilter::linear ? GL_LINEAR : GL_NEAREST);
+                           options.filter == TextureFilter::linear ? GL_LINEAR : GL_NEAREST);
 }
 
 void ScreenPass::use(unsigned texture) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "prt/gpu/gl_name.h"
 #include "prt/gpu/shader_program.h"
@@ -8,14 +9,17 @@
 
 namespace prt {
 
+struct ScreenPassOptions {
+    /// Of the texture that is read, which is the same again on its left and right.
+    TextureFilter filter = TextureFilter::nearest;
+    std::string definitions{};             ///< as for linkProgram
+    std::span<const ShaderText> called{};  ///< as for linkProgram
+};
+
 /// A fragment shader for every pixel of the viewport, behind shaders/screen.vert.
 class ScreenPass {
   public:
-    /// @param filter  of the texture that it reads, which is the same again on its left and right
-    /// @param called  as for linkProgram
-    explicit ScreenPass(const ShaderText& fragmentShader,
-                        TextureFilter filter = TextureFilter::nearest,
-                        std::span<const ShaderText> called = {});
+    explicit ScreenPass(const ShaderText& fragmentShader, const ScreenPassOptions& options = {});
 
     /// Makes its program and texture current, for its uniforms to be set. Leaves depth test,
     /// culling and blending off.

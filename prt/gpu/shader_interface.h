@@ -23,7 +23,6 @@ inline constexpr int kRoughnesses = 32;
 inline constexpr int kMostRoughnesses = 16;
 
 inline constexpr int kExposure = 0;
-inline constexpr int kToneCurve = 1;
 
 inline constexpr int kForward = 0;
 inline constexpr int kRightward = 1;
