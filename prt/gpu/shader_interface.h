@@ -3,8 +3,8 @@
 namespace prt {
 
 /// Where the shaders have what they are given: the locations and bindings of shaders/relight.vert
-/// surface.frag and mirrors.frag, of display.frag and background.frag, and of receive.comp and
-/// reflect.comp.
+/// surface.frag and mirrors.frag, of display.frag and background.frag, of receive.comp and
+/// reflect.comp, and of lobe.vert, lobe.frag and overlay.frag.
 namespace uniforms {
 inline constexpr int kClipFromEyeSpace = 0;
 inline constexpr int kEye = 1;
@@ -35,6 +35,15 @@ inline constexpr int kPaddedCount = 4;
 inline constexpr int kVertexCount = 3;
 inline constexpr int kReflectedEye = 4;
 inline constexpr int kOpen = 8;
+
+inline constexpr int kCameraFromLobe = 2;
+inline constexpr int kNegativeColor = 16;
+inline constexpr int kSceneDepths = 17;
+inline constexpr int kSceneCorner = 18;
+inline constexpr int kLongestEdge = 19;
+
+inline constexpr int kCorner = 0;
+inline constexpr int kDiscColor = 1;
 }  // namespace uniforms
 
 namespace attributes {
@@ -42,6 +51,8 @@ inline constexpr unsigned kPosition = 0;
 inline constexpr unsigned kUvSets = 1;
 inline constexpr unsigned kColor = 2;
 inline constexpr unsigned kNormal = 3;
+
+inline constexpr unsigned kLobeNormal = 1;
 }  // namespace attributes
 
 namespace buffers {
