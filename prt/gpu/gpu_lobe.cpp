@@ -22,8 +22,10 @@ namespace {
 
 constexpr int kSampleCount = 4;
 
-/// Around the equator: eighteen vertices to a wave of degree 9.
-constexpr int kSegmentCount = 160;
+/// Vertices around the equator: a wave of the highest degree has more than sixteen.
+int countSegments(int bandCount) {
+    return 16 * std::clamp(bandCount, 4, kMaxBandCount);
+}
 
 /// Of a globe's square: the largest radius over half its side, and the disc behind it, a code value
 /// and its share.
@@ -131,10 +133,24 @@ struct GpuLobe::Pass {
 
 GpuLobe::GpuLobe()
     : program_(linkProgram(findShader("shaders/lobe.vert"), findShader("shaders/lobe.frag"))),
-      overlayPass_(findShader("shaders/overlay.frag")),
-      sphere_(makeSphere(Vec3f(0.0f), 1.0f, kSegmentCount)),
-      vertices_(makeBuffer(sphere_.vertexCount() * sizeof(LobeVertex), "a lobe")),
-      indices_(makeBuffer(std::span<const std::uint32_t>(sphere_.indices), "a lobe")) {
+      overlayPass_(findShader("shaders/overlay.frag")) {
+    setFunction(Lighting(1));
+}
+
+void GpuLobe::setFunction(const Lighting& function, const LobeColors& colors) {
+    const int segmentCount = countSegments(function.bandCount);
+    if (segmentCount != segmentCount_) makeTriangles(segmentCount);
+    const std::vector<LobeVertex> shape = shapeLobe(sphere_, function, colors.positive);
+    writeBuffer(vertices_, 0, std::as_bytes(std::span(shape)));
+    negativeColor_ = colors.negative;
+    longestEdge_ = findLongestEdge(sphere_, shape);
+}
+
+void GpuLobe::makeTriangles(int segmentCount) {
+    segmentCount_ = segmentCount;
+    sphere_ = makeSphere(Vec3f(0.0f), 1.0f, segmentCount);
+    vertices_ = makeBuffer(sphere_.vertexCount() * sizeof(LobeVertex), "a lobe");
+    indices_ = makeBuffer(std::span<const std::uint32_t>(sphere_.indices), "a lobe");
     unsigned name = 0;
     glGenVertexArrays(1, &name);
     layout_ = GlName(name, [](unsigned given) { glDeleteVertexArrays(1, &given); });
@@ -145,14 +161,6 @@ GpuLobe::GpuLobe()
     addAttribute(attributes::kLobeNormal, 3, offsetof(LobeVertex, normal));
     addAttribute(attributes::kColor, 4, offsetof(LobeVertex, color));
     glBindVertexArray(0);
-    setFunction(Lighting(1));
-}
-
-void GpuLobe::setFunction(const Lighting& function, const LobeColors& colors) {
-    const std::vector<LobeVertex> shape = shapeLobe(sphere_, function, colors.positive);
-    writeBuffer(vertices_, 0, std::as_bytes(std::span(shape)));
-    negativeColor_ = colors.negative;
-    longestEdge_ = findLongestEdge(sphere_, shape);
 }
 
 void GpuLobe::drawInScene(const GpuTarget& scene, std::span<const GpuObject> objects,

@@ -64,10 +64,12 @@ class GpuLobe {
     struct Pass;
     void draw(const Pass& pass);
     void drawSurface(const Pass& pass);
+    void makeTriangles(int segmentCount);
 
     GlName program_;
     ScreenPass overlayPass_;
-    Mesh sphere_;
+    int segmentCount_ = 0;
+    Mesh sphere_;  ///< of so many segments
     GlName vertices_;
     GlName indices_;
     GlName layout_;
