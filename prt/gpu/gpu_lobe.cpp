@@ -11,6 +11,7 @@
 
 #include <epoxy/gl.h>
 
+#include "prt/base/assert.h"
 #include "prt/gpu/gl_objects.h"
 #include "prt/gpu/lobe_shape.h"
 #include "prt/gpu/shader_interface.h"
@@ -171,6 +172,7 @@ void GpuLobe::drawInScene(const GpuTarget& scene, std::span<const GpuObject> obj
     const Vec3d fromEye = place.center - Vec3d(camera.eye);
     const Mat3d lobeFromWorld = place.worldFromLobe.transposed();
     const double radius = place.largestRadius;
+    PRT_ASSERT(radius > 0.0, "a lobe of some size");
     const double ahead = fromEye.dot(view.forward) / radius;
 
     Pass pass;
@@ -213,6 +215,7 @@ void GpuLobe::draw(const Pass& pass) {
     std::array<GLint, 4> viewport{};
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
     glGetIntegerv(GL_VIEWPORT, viewport.data());
+    glDisable(GL_SCISSOR_TEST);
     if (pass.scene) pass.scene->resolveDepth();
     drawSurface(pass);
 

@@ -21,7 +21,7 @@ struct LobeColors {
 /// Where a lobe stands in a scene.
 struct LobePlace {
     Vec3d center{0.0, 0.0, 0.0};  ///< world space
-    double largestRadius = 1.0;   ///< metres
+    double largestRadius = 1.0;   ///< metres, more than 0
     Mat3d worldFromLobe{};        ///< a rotation
 };
 
@@ -36,7 +36,7 @@ struct PictureSquare {
 /// shaded by a lamp that goes with the camera. It is laid over a picture that is shown already:
 /// neither exposure nor tone curve changes it.
 ///
-/// Drawing leaves depth test, culling and blending off.
+/// Drawing leaves depth test, culling, blending and scissor off.
 class GpuLobe {
   public:
     /// Of the function 0, of which nothing is seen.
