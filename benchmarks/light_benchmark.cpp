@@ -10,7 +10,7 @@
 #include "benchmarks/yardsticks.h"
 #include "prt/base/random.h"
 #include "prt/light/analytic_lights.h"
-#include "prt/light/environment.h"
+#include "prt/light/environment_projector.h"
 
 namespace prt {
 namespace {
@@ -45,8 +45,9 @@ double playFrames(benchmark::State& state, Step step) {
 /// A video: every frame is another image.
 void projectFrames(benchmark::State& state, SphereMap map, int width, int height) {
     const std::vector<Environment> frames = makeFrames(map, width, height);
+    const EnvironmentProjector projector(map, width, height, kBandCount);
     const double seconds = playFrames(state, [&](std::size_t frame) {
-        return projectLighting(frames[frame % frames.size()], kBandCount);
+        return projector.project(frames[frame % frames.size()].radiance);
     });
     const auto& pixels = frames[0].radiance.pixels;
     state.counters["over_read"] = seconds / measureReadSeconds(pixels.size() * sizeof(Vec3f));
@@ -59,6 +60,12 @@ BENCHMARK_CAPTURE(projectFrames, lat_long_1024x512, SphereMap::latLong, 1024, 51
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(projectFrames, cube_64, SphereMap::horizontalStrip, 6 * 64, 64)
     ->Name("moving_light/video/cube_of_6x64x64")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(projectFrames, cube_256, SphereMap::verticalCross, 3 * 256, 4 * 256)
+    ->Name("moving_light/video/cross_of_6x256x256")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(projectFrames, angular_map, SphereMap::angularMap, 1000, 1000)
+    ->Name("moving_light/video/angular_map_1000x1000")
     ->Unit(benchmark::kMillisecond);
 
 /// An environment that turns: its coefficients do.
