@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/common/light_argument.h"
 #include "apps/viewer/background_loads.h"
-#include "prt/light/resampling.h"
+#include "apps/viewer/lat_long_size.h"
 
 namespace prt::viewer {
 namespace {
@@ -96,7 +98,7 @@ struct LightRig::Content {
     }
 
     void collect(std::span<const LightChoice> lights);
-    const Environment& resampled(const std::shared_ptr<const ReadLight>& light, int height);
+    const Image& resized(const std::shared_ptr<const ReadLight>& light, int height);
     Environment drawSum();
     const std::shared_ptr<const Environment>& share();
 
@@ -108,7 +110,7 @@ struct LightRig::Content {
     Lighting lighting = Lighting(kMaxBandCount);
     std::shared_ptr<const Environment> environment;  ///< null until it is asked for
     /// Images of the parts in the size of the last sum, those that have another.
-    std::map<std::shared_ptr<const ReadLight>, Environment> resampledParts;
+    std::map<std::shared_ptr<const ReadLight>, Image> resizedParts;
 };
 
 void LightRig::Content::collect(std::span<const LightChoice> lights) {
@@ -125,18 +127,16 @@ void LightRig::Content::collect(std::span<const LightChoice> lights) {
     ++revision;
     lighting = sumLighting(parts);
     environment.reset();
-    std::erase_if(resampledParts, [&](const auto& one) {
+    std::erase_if(resizedParts, [&](const auto& one) {
         return std::none_of(parts.begin(), parts.end(),
                             [&](const Part& part) { return part.light == one.first; });
     });
 }
 
-const Environment& LightRig::Content::resampled(const std::shared_ptr<const ReadLight>& light,
-                                                int height) {
-    if (light->environment.radiance.height == height) return light->environment;
-    Environment& kept = resampledParts[light];
-    if (kept.radiance.height != height)
-        kept = resample(light->environment, SphereMap::latLong, 2 * height, height);
+const Image& LightRig::Content::resized(const std::shared_ptr<const ReadLight>& light, int height) {
+    if (light->environment.radiance.height == height) return light->environment.radiance;
+    Image& kept = resizedParts[light];
+    if (kept.height != height) kept = resizeLatLong(light->environment.radiance, height);
     return kept;
 }
 
@@ -147,7 +147,7 @@ Environment LightRig::Content::drawSum() {
     if (parts.size() > 1) height = std::min(height, kMostSummedHeight);
     Environment sum{SphereMap::latLong, Image(2 * height, height)};
     for (const Part& part : parts)
-        addTurned(resampled(part.light, height).radiance, part.azimuthDegrees,
+        addTurned(resized(part.light, height), part.azimuthDegrees,
                   static_cast<float>(std::exp2(part.stops)), sum.radiance);
     return sum;
 }

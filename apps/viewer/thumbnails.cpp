@@ -13,8 +13,8 @@
 #include "apps/common/picture.h"
 #include "apps/common/text.h"
 #include "apps/viewer/background_loads.h"
+#include "apps/viewer/lat_long_size.h"
 #include "prt/io/environment_io.h"
-#include "prt/light/resampling.h"
 
 namespace prt::viewer {
 namespace {
@@ -44,12 +44,25 @@ std::vector<std::string> listImages(const fs::path& folder) {
     return images;
 }
 
+/// A small lat-long image of an environment; one that is not lat-long is looked up in a few places
+/// a texel.
+Image shrink(const Environment& environment, int height) {
+    if (environment.map == SphereMap::latLong) return resizeLatLong(environment.radiance, height);
+    constexpr int kPlaces = 4;  // along each side
+    Image fine(2 * kPlaces * height, kPlaces * height);
+    for (int y = 0; y < fine.height; ++y)
+        for (int x = 0; x < fine.width; ++x)
+            fine.at(x, y) = lookUpRadiance(
+                environment,
+                Vec3f(sphereTexel(SphereMap::latLong, fine.width, fine.height, x, y).direction));
+    return resizeLatLong(fine, height);
+}
+
 Loads::Loaded drawThumbnail(const std::string& path, const ThumbnailOptions& options) {
     constexpr int kBandCount = 3;  // all that the exposure is chosen by
     const LoadedEnvironment light = loadEnvironment(path, {}, options.limits);
-    const float stops = cli::chooseExposure(projectLighting(light.environment, kBandCount));
-    const Environment small =
-        resample(light.environment, SphereMap::latLong, options.width, options.width / 2);
+    const Environment small{SphereMap::latLong, shrink(light.environment, options.height)};
+    const float stops = cli::chooseExposure(projectLighting(small, kBandCount));
     return {encodeForDisplay(small.radiance, {.exposureStops = stops}),
             cli::describeMending(light.mended).value_or("")};
 }

@@ -21,7 +21,7 @@ struct Thumbnail {
 
 struct ThumbnailOptions {
     ImageLimits limits{};
-    int width = 96;                ///< even; twice the height
+    int height = 48;               ///< pixels; twice as wide
     std::size_t mostCount = 1000;  ///< of a folder, the first by name
 };
 

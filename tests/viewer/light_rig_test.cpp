@@ -1,5 +1,6 @@
 #include "apps/viewer/light_rig.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -68,6 +69,22 @@ TEST(LightRig, EnvironmentIsTheSameLightAsTheSum) {
     EXPECT_LT(largestDifference(projected(rig), rig.sum()),
               kPicture * rig.sum().coefficients[0].length());
     EXPECT_EQ(rig.environment().map, SphereMap::latLong);
+}
+
+TEST(LightRig, ImagesOfAnySizeKeepTheirLightInTheSum) {
+    // Texels are averaged in floats.
+    constexpr double kFloats = 1e-5;
+    const test::TemporaryFolder folder;
+    for (const int height : {9, 32, 50}) {
+        writeExr(folder.path() / "noise.exr", makeNoise(2 * height, height));
+        writeExr(folder.path() / "black.exr", Image(64, 32));
+        LightRig rig{ImageLimits{}};
+        const std::vector<LightChoice> lights = {{.source = folder.path() / "noise.exr"},
+                                                 {.source = folder.path() / "black.exr"}};
+        rig.finish(lights);
+        EXPECT_EQ(rig.environment().radiance.height, std::max(height, 32));
+        EXPECT_LT((projected(rig).coefficients[0] - rig.sum().coefficients[0]).length(), kFloats);
+    }
 }
 
 TEST(LightRig, ASingleImageIsShownAsItIs) {
