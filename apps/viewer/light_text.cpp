@@ -68,6 +68,11 @@ LightText usualLight(LightKind kind) {
     return light;
 }
 
+double usualStops(LightKind kind) {
+    constexpr double kSkyStops = -5.0;  // 1 is 1000 cd/m2 there
+    return kind == LightKind::sky || kind == LightKind::daylight ? kSkyStops : 0.0;
+}
+
 std::optional<LightText> parseLightText(const std::string& source) {
     for (std::size_t i = 0; i < kKinds.size(); ++i) {
         if (!source.starts_with(kKinds[i].prefix)) continue;

@@ -29,6 +29,8 @@ std::span<const LightNumber, 3> lightNumbers(LightKind kind);
 
 /// A light of usual numbers.
 LightText usualLight(LightKind kind);
+/// With this factor in stops it is about as bright as the others.
+double usualStops(LightKind kind);
 
 /// None for a file, and for text whose numbers are not as `prt light --help` says.
 std::optional<LightText> parseLightText(const std::string& source);

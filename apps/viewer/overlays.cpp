@@ -1,0 +1,127 @@
+#include "apps/viewer/panels.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "apps/viewer/key_bindings.h"
+
+namespace prt::viewer {
+namespace {
+
+constexpr ImGuiWindowFlags kTile = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings |
+                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                                   ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize;
+const ImVec4 kFaultColor(0.72f, 0.13f, 0.1f, 1.0f);
+
+float marginPixels() {
+    return ImGui::GetFontSize() * 0.8f;
+}
+
+/// A tile with a corner at a place of the picture.
+void beginTile(const char* name, const ImVec2& place, const ImVec2& corner) {
+    ImGui::SetNextWindowPos(place, ImGuiCond_Always, corner);
+    ImGui::Begin(name, nullptr, kTile);
+    ImGui::PushTextWrapPos(
+        std::min(ImGui::GetFontSize() * 36.0f, ImGui::GetIO().DisplaySize.x * 0.45f));
+}
+
+void endTile() {
+    ImGui::PopTextWrapPos();
+    ImGui::End();
+}
+
+std::size_t countWaiting(const Stage& stage) {
+    const auto count = [](std::span<const LoadingStatus> statuses) {
+        return std::ranges::count(statuses, LoadingStatus::Stage::waiting, &LoadingStatus::stage);
+    };
+    return static_cast<std::size_t>(count(stage.objects().statuses()) +
+                                    count(stage.lights().statuses()));
+}
+
+std::string describePane(const Pane& pane) {
+    if (pane.content == PaneContent::reference) return "path-traced reference";
+    if (pane.content == PaneContent::coefficient)
+        return "coefficient " + std::to_string(pane.coefficient);
+    std::string text(pane.transport ? cli::shownTransportName(*pane.transport) : "fullest");
+    if (pane.bandCount < kMaxBandCount)
+        text += ", " + std::to_string(pane.bandCount) + (pane.bandCount == 1 ? " band" : " bands");
+    return text;
+}
+
+}  // namespace
+
+void drawTiles(const Stage& stage) {
+    const std::vector<std::string> faults = stage.describeFaults();
+    const std::size_t waitingCount = countWaiting(stage);
+    if (faults.empty() && waitingCount == 0) return;
+    beginTile("tiles", {marginPixels(), marginPixels()}, {0.0f, 0.0f});
+    for (const std::string& fault : faults) {
+        ImGui::PushStyleColor(ImGuiCol_Text, kFaultColor);
+        ImGui::TextWrapped("%s", fault.c_str());
+        ImGui::PopStyleColor();
+    }
+    if (waitingCount > 0) ImGui::TextDisabled("reading, %zu to go", waitingCount);
+    endTile();
+}
+
+void drawToasts(Desk& desk) {
+    std::erase_if(desk.toasts,
+                  [&](const Toast& toast) { return toast.endSeconds <= desk.seconds; });
+    if (desk.toasts.empty()) return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    beginTile("toasts", {marginPixels(), size.y - marginPixels()}, {0.0f, 1.0f});
+    for (const Toast& toast : desk.toasts)
+        ImGui::TextWrapped("%s", toast.text.c_str());
+    endTile();
+}
+
+void drawHint(const Desk& desk) {
+    if (!desk.showsHint) return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    beginTile("hint", {0.5f * size.x, size.y - marginPixels()}, {0.5f, 1.0f});
+    ImGui::TextUnformatted("Drag turns the view, Ctrl + drag the light, the wheel comes nearer.");
+    ImGui::TextUnformatted("H tells all keys, Tab opens the panel; drop images and assets here.");
+    endTile();
+}
+
+void drawHelp(Desk& desk) {
+    if (!desk.isHelpOpen) return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::Begin("Mouse and keys", &desk.isHelpOpen,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+        for (const KeyHelp& line : keyHelp()) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(line.keys);
+            ImGui::TableNextColumn();
+            ImGui::TextDisabled("%s", line.what);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+void drawSplitLine(const ViewState& view) {
+    if (!view.right) return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float x = size.x * static_cast<float>(view.splitPosition);
+    const float font = ImGui::GetFontSize();
+    ImDrawList* drawing = ImGui::GetBackgroundDrawList();
+    drawing->AddLine({x, 0.0f}, {x, size.y}, IM_COL32(0, 0, 0, 110), 0.25f * font);
+    drawing->AddLine({x, 0.0f}, {x, size.y}, IM_COL32_WHITE, 0.1f * font);
+    drawing->AddCircleFilled({x, 0.5f * size.y}, 0.5f * font, IM_COL32_WHITE);
+    drawing->AddCircle({x, 0.5f * size.y}, 0.5f * font, IM_COL32(0, 0, 0, 110), 0, 0.1f * font);
+    const float below = size.y - marginPixels();
+    beginTile("left half", {x - marginPixels(), below}, {1.0f, 1.0f});
+    ImGui::TextUnformatted(describePane(view.left).c_str());
+    endTile();
+    beginTile("right half", {x + marginPixels(), below}, {0.0f, 1.0f});
+    ImGui::TextUnformatted(describePane(*view.right).c_str());
+    endTile();
+}
+
+}  // namespace prt::viewer
