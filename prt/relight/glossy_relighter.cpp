@@ -63,15 +63,6 @@ class StoredMatrices {
     Matrices matrices_;
 };
 
-/// Which receivers are split, if the asset can tell what comes straight from the light.
-LobeSplit chooseSplit(const CompressedTransfer& transfer, const CompressedLayer& layer,
-                      double leastRoughness) {
-    const CompressedLayer* visibility = transfer.findLayer(Transport::glossyShadowed);
-    if (visibility && visibility->incidentBandCount != layer.incidentBandCount)
-        visibility = nullptr;
-    return {visibility, leastRoughness, visibility != &layer};
-}
-
 }  // namespace
 
 struct GlossyRelighter::State {

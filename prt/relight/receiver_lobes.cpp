@@ -36,6 +36,19 @@ void orderRow(int bandCount, const ElementAt& elementAt, float* row) {
 
 }  // namespace
 
+LobeSplit chooseSplit(const CompressedTransfer& transfer, const CompressedLayer& layer,
+                      double leastRoughness) {
+    const CompressedLayer* visibility = transfer.findLayer(Transport::glossyShadowed);
+    if (visibility && visibility->incidentBandCount != layer.incidentBandCount)
+        visibility = nullptr;
+    return {visibility, leastRoughness, visibility != &layer};
+}
+
+bool isSplit(const LobeSplit& split, const ReceiverSurface& receiver) {
+    return split.visibility &&
+           static_cast<double>(receiver.surface.roughness) < split.leastRoughness;
+}
+
 ReceiverLobes::ReceiverLobes(std::span<const ReceiverSurface> receivers, const GltfViewTable& views,
                              std::span<const std::shared_ptr<const BrdfViewTable>> materialTables,
                              const LobeSplit& split)
@@ -125,9 +138,8 @@ void ReceiverLobes::copyOtherRows(
 
 void ReceiverLobes::splitLobes(std::span<const ReceiverSurface> receivers, const LobeSplit& split) {
     std::vector<std::size_t> chosen;
-    for (std::size_t r = 0; split.visibility && r < receivers.size(); ++r)
-        if (lobes_[r].kind == LobeKind::gltf &&
-            static_cast<double>(receivers[r].surface.roughness) < split.leastRoughness)
+    for (std::size_t r = 0; r < receivers.size(); ++r)
+        if (lobes_[r].kind == LobeKind::gltf && prt::isSplit(split, receivers[r]))
             chosen.push_back(r);
     view_.hasBounced = split.hasBounced && !chosen.empty();
     view_.incidentSize = (view_.hasBounced ? 6 : 3) * view_.rowSize;

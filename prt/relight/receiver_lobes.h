@@ -22,6 +22,13 @@ struct LobeSplit {
     bool hasBounced = false;  ///< whether their incident radiance is followed by what has bounced
 };
 
+/// Those of a layer, if the asset can tell what comes straight from the light.
+LobeSplit chooseSplit(const CompressedTransfer& transfer, const CompressedLayer& layer,
+                      double leastRoughness);
+
+/// Whether a receiver of a glTF material is one of them.
+bool isSplit(const LobeSplit& split, const ReceiverSurface& receiver);
+
 /// What every receiver of an asset reflects to any view, ready for one eye after the other.
 class ReceiverLobes {
   public:
