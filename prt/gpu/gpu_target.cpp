@@ -61,6 +61,15 @@ GlName makeFramebuffer() {
     return GlName(name, [](unsigned given) { glDeleteFramebuffers(1, &given); });
 }
 
+/// Of the framebuffer that is bound.
+void checkComplete() {
+    checkGpuMemory("the picture");
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        throw Error(ErrorCode::unsupported,
+                    "the graphics driver does not draw to pictures of this format and sample count",
+                    {}, "choose fewer samples, or draw on the CPU");
+}
+
 /// OpenGL's lowest row comes first, an image's highest.
 template <class Pixel>
 void flipRows(ImageOf<Pixel>& image) {
@@ -88,11 +97,11 @@ GpuTarget::GpuTarget(int width, int height, int sampleCount, TargetFormat format
 
 GpuTarget::Layers GpuTarget::makeSingle() const {
     Layers layers{.color = makeTexture(glFormat_, width_, height_),
-                  .depth = {},
+                  .depth = makeTexture(GL_DEPTH_COMPONENT32F, width_, height_),
                   .framebuffer = makeFramebuffer()};
     glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, layers.color.get(), 0);
-    layers.depth = makeRenderbuffer(GL_DEPTH_COMPONENT32F, width_, height_, 0);
-    complete(layers);
+    glFramebufferTexture(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, layers.depth.get(), 0);
+    checkComplete();
     return layers;
 }
 
@@ -102,18 +111,10 @@ GpuTarget::Layers GpuTarget::makeMultisampled(int sampleCount) const {
                   .framebuffer = makeFramebuffer()};
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
                               layers.color.get());
-    complete(layers);
-    return layers;
-}
-
-void GpuTarget::complete(Layers& layers) const {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
                               layers.depth.get());
-    checkGpuMemory("the picture");
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        throw Error(ErrorCode::unsupported,
-                    "the graphics driver does not draw to pictures of this format and sample count",
-                    {}, "choose fewer samples, or draw on the CPU");
+    checkComplete();
+    return layers;
 }
 
 void GpuTarget::beginDrawing(const PixelColumns& columns, bool isCovered) const {
@@ -131,12 +132,20 @@ void GpuTarget::beginDrawing(const PixelColumns& columns, bool isCovered) const 
 
 void GpuTarget::finishDrawing(const PixelColumns& columns) const {
     glDisable(GL_SCISSOR_TEST);
+    resolve(columns, GL_COLOR_BUFFER_BIT);
+}
+
+void GpuTarget::resolveDepth(const PixelColumns& columns) const {
+    resolve(columns, GL_DEPTH_BUFFER_BIT);
+}
+
+void GpuTarget::resolve(const PixelColumns& columns, unsigned buffers) const {
     if (multisampled_.framebuffer.get() == 0) return;
     const PixelColumns drawn = boundColumns(columns, width_);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, multisampled_.framebuffer.get());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, single_.framebuffer.get());
     glBlitFramebuffer(drawn.first, 0, drawn.end, height_, drawn.first, 0, drawn.end, height_,
-                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+                      buffers, GL_NEAREST);
 }
 
 void GpuTarget::writeRadiance(const Image& radiance, const PixelColumns& columns) {

@@ -50,8 +50,13 @@ class GpuTarget {
     /// Of code values.
     Rgba8Image readCodeValues() const;
 
-    /// OpenGL's name of the texture that holds the picture, its lowest row first.
+    /// Takes the depth of one sample of each pixel for the pixel's: before depthTexture() is read.
+    /// Leaves this picture's framebuffers bound.
+    void resolveDepth(const PixelColumns& columns = {}) const;
+
+    /// OpenGL's names of the textures that hold the picture and its depths, the lowest row first.
     unsigned texture() const { return single_.color.get(); }
+    unsigned depthTexture() const { return single_.depth.get(); }
 
   private:
     struct Layers {
@@ -61,7 +66,7 @@ class GpuTarget {
     };
     Layers makeSingle() const;
     Layers makeMultisampled(int sampleCount) const;
-    void complete(Layers& layers) const;
+    void resolve(const PixelColumns& columns, unsigned buffers) const;
 
     int width_;
     int height_;
