@@ -23,9 +23,9 @@ namespace {
 
 constexpr int kSampleCount = 4;
 
-/// Vertices around the equator: a wave of the highest degree has more than sixteen.
+/// Vertices around the equator: a wave of the highest degree has more than twenty.
 int countSegments(int bandCount) {
-    return 16 * std::clamp(bandCount, 4, kMaxBandCount);
+    return 20 * std::clamp(bandCount, 4, kMaxBandCount);
 }
 
 /// Of a globe's square: the largest radius over half its side, and the disc behind it, a code value
