@@ -1,5 +1,5 @@
 // Bibliography
-//   [RFC7396]  JSON merge patch
+//   [Hoffman14]  JSON merge patch
 #include "apps/viewer/view_file.h"
 
 #include <algorithm>

@@ -22,8 +22,8 @@ ViewState loadView(const std::filesystem::path& path);
 
 /// One step of a scripted run: the view is changed, drawn, and a picture taken.
 struct ScriptStep {
-    std::string patch;       ///< JSON; of the view [RFC7396]
-    std::string screenshot;  ///< .png or .exr; empty for none
+    std::string patch{};       ///< JSON; of the view [Hoffman14]
+    std::string screenshot{};  ///< .png or .exr; empty for none
 };
 
 /// Reads a script: a JSON array of objects {"view": patch, "screenshot": file}, both optional.

@@ -1,0 +1,163 @@
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/common/light_argument.h"
+#include "apps/common/picture.h"
+#include "apps/prt/arguments.h"
+#include "apps/prt/commands.h"
+#include "apps/prt/limits.h"
+#include "apps/prt/stage_log.h"
+#include "apps/viewer/frame_benchmark.h"
+#include "apps/viewer/offscreen.h"
+#include "apps/viewer/window.h"
+#include "prt/base/error.h"
+
+namespace prt::cli {
+namespace {
+
+/// What an object is seen in where no light is named: a clear day, without the ringing of its sun.
+constexpr const char* kFirstLight = "daylight:150,40";
+constexpr const char* kFirstWindow = "auto";
+
+enum class Relit { automatic, cpu, opengl };
+
+std::optional<Relit> parseRelit(std::string_view name) {
+    if (name == "auto") return Relit::automatic;
+    if (name == "cpu") return Relit::cpu;
+    if (name == "opengl") return Relit::opengl;
+    return std::nullopt;
+}
+
+struct ViewCommandArguments {
+    std::vector<std::string> assets;
+    std::vector<std::string> lights;
+    std::string view;
+    std::optional<ShownTransport> transport;
+    PictureSize size;
+    bool offscreen = false;
+    std::string screenshot;
+    std::string script;
+    int benchmarkFrames = 0;
+    int sampleCount = 4;
+    Relit relit = Relit::automatic;
+    int threadCount = 0;
+    ReaderLimits limits;
+};
+
+viewer::ViewState makeView(const ViewCommandArguments& arguments) {
+    viewer::ViewState view;
+    if (!arguments.view.empty()) view = viewer::loadView(arguments.view);
+    for (const std::string& asset : arguments.assets)
+        view.objects.push_back({.asset = asset});
+    if (view.objects.empty())
+        throw CLI::ValidationError("ASSET",
+                                   "there is no asset to show, and no --view that names one");
+    if (!arguments.lights.empty()) view.lights.clear();
+    for (const std::string& light : arguments.lights)
+        view.lights.push_back({.source = light});
+    if (view.lights.empty()) {
+        view.lights.push_back({.source = kFirstLight});
+        view.window = kFirstWindow;
+    }
+    if (arguments.transport) view.left.transport = arguments.transport;
+    return view;
+}
+
+std::vector<viewer::ScriptStep> makeScript(const ViewCommandArguments& arguments) {
+    std::vector<viewer::ScriptStep> script;
+    if (!arguments.script.empty()) script = viewer::loadScript(arguments.script);
+    if (!arguments.screenshot.empty()) script.push_back({.screenshot = arguments.screenshot});
+    return script;
+}
+
+void runView(const ViewCommandArguments& arguments) {
+    const viewer::ViewState view = makeView(arguments);
+    const std::vector<viewer::ScriptStep> script = makeScript(arguments);
+    viewer::StageOptions stage{.limits = arguments.limits.images(),
+                               .threadCount = arguments.threadCount};
+    if (arguments.relit != Relit::automatic)
+        stage.relightsOnCard = arguments.relit == Relit::opengl;
+    const viewer::OffscreenOptions offscreen{.width = arguments.size.width,
+                                             .height = arguments.size.height,
+                                             .sampleCount = arguments.sampleCount,
+                                             .stage = stage};
+    if (arguments.benchmarkFrames > 0) {
+        fmt::print("{}", viewer::benchmarkFrames(view, arguments.benchmarkFrames, offscreen));
+        return;
+    }
+    if (!arguments.offscreen) {
+        viewer::runWindow(view, {.width = arguments.size.width,
+                                 .height = arguments.size.height,
+                                 .stage = stage,
+                                 .script = script});
+        return;
+    }
+    StageLog log;
+    for (const std::string& fault : viewer::runOffscreen(view, script, offscreen))
+        log.warn(fault);
+}
+
+constexpr const char* kFooter =
+    R"(Examples: prt view statue.prt.glb --light museum.exr
+          prt view statue.prt.glb vase.prt.glb --light sky:150,40 --light sun:150,40,0.53
+          prt view statue.prt.glb --light museum.exr --offscreen --screenshot statue.png
+          prt view statue.prt.glb --benchmark 200
+
+In the window F1 shows all keys; drag to turn the object, with Ctrl to turn the light, and drop
+assets, images and saved views onto it. A view that was saved there opens again with --view. A
+SCRIPT is a JSON array of steps {"view": {…}, "screenshot": "FILE.png|exr"}, each of which changes
+some values of the view, as a saved one names them, and takes a picture. With --offscreen nothing
+but OpenGL is needed, no display.
+
+)";
+
+}  // namespace
+
+void addViewCommand(CLI::App& app) {
+    const auto arguments = std::make_shared<ViewCommandArguments>();
+    CLI::App* command =
+        app.add_subcommand("view", "Turn the light around baked assets in a window");
+    command->footer(std::string(kFooter) + kLightHelp);
+    command->add_option("ASSET", arguments->assets, "what prt bake wrote; several share the light");
+    command
+        ->add_option("--light", arguments->lights,
+                     "a light, as below; again for more, which add up [daylight:150,40]")
+        ->type_name("LIGHT");
+    command->add_option("--view", arguments->view, "begin with a view that was saved")
+        ->type_name("FILE.json");
+    addParsedOption(*command, "--transport", arguments->transport, parseShownTransport,
+                    kShownTransportForms, "how much of light transport to show [all there is]");
+    addParsedOption(*command, "--size", arguments->size, parsePictureSize, "WxH",
+                    "of the window, pixels")
+        ->default_str(fmt::format("{}x{}", arguments->size.width, arguments->size.height));
+    CLI::Option* offscreen =
+        command->add_flag("--offscreen", arguments->offscreen, "draw without a window");
+    CLI::Option* screenshot =
+        command->add_option("--screenshot", arguments->screenshot, "write a picture, and end");
+    screenshot->type_name("OUT.png|exr");
+    CLI::Option* script = command->add_option(
+        "--script", arguments->script, "change the view and take pictures as it says, and end");
+    script->type_name("SCRIPT.json");
+    CLI::Option* benchmark =
+        addIntegerOption(*command, "--benchmark", arguments->benchmarkFrames, 1, 1'000'000,
+                         "turn the light for so many frames, offscreen, and print their times");
+    benchmark->default_str("");
+    benchmark->excludes(screenshot)->excludes(script);
+    addIntegerOption(*command, "--samples", arguments->sampleCount, 1, 64,
+                     "a pixel, of what is drawn offscreen");
+    addParsedOption(*command, "--relight", arguments->relit, parseRelit, "auto|cpu|opengl",
+                    "what relights; auto: opengl on a graphics card")
+        ->default_str("auto");
+    addIntegerOption(*command, "--threads", arguments->threadCount, 0, 4096, "0 for one a core");
+    addPixelLimit(*command, arguments->limits);
+
+    command->callback([arguments, offscreen, screenshot, script] {
+        if (offscreen->count() > 0 && screenshot->count() + script->count() == 0)
+            throw CLI::ValidationError("--offscreen", "needs a --screenshot or a --script to do");
+        runView(*arguments);
+    });
+}
+
+}  // namespace prt::cli
