@@ -5,7 +5,7 @@
 //   S(r, roughness) ∫ f_r(ω_i, ω_o) max(cos θ_i, 0) dω_i                    [Karis13]
 
 layout(location = 22) uniform mat3 environmentFromObject;
-layout(location = 23) uniform int levelCount;  // of roughness, ascending from 0; none: nothing is mirrored
+layout(location = 23) uniform int levelCount;  // of roughness, ascending from 0
 layout(location = 32) uniform float roughnesses[16];
 layout(binding = 3) uniform sampler2D environment;       // of roughness 0, lat-long
 layout(binding = 4) uniform sampler2DArray mirrors;      // of the others: six faces one below another
@@ -74,7 +74,6 @@ vec3 evaluateAlbedo(vec3 f0, float roughness, float cosine) {
 // normal, view: along the object's axes, of any length
 // surface:      metallic, roughness
 vec3 showMirrored(vec3 normal, vec3 view, vec3 baseColor, vec2 surface) {
-    if (levelCount == 0) return vec3(0.0);
     vec3 n = normalize(normal);
     vec3 towardsEye = normalize(view);
     float cosine = dot(n, towardsEye);

@@ -2,11 +2,15 @@
 // What a surface point sends to the eye: base colour times B (or what shines beside it), and what it emits. Linear,
 // unclamped.
 //
-// MIRRORED      defined: and what shines through mirrorVisibility
+// TEXTURED  defined: materials may have textures
+// MIRRORED  defined: and what shines through mirrorVisibility
+// LINED     defined: lines on surfaces instead of these
 
 in vec3 radiancePerBaseColor;
 in vec3 constantRadiance;
+#ifdef TEXTURED
 in vec4 uvs;
+#endif
 in vec4 vertexColor;
 #ifdef MIRRORED
 in float mirrorVisibility;
@@ -18,7 +22,7 @@ layout(location = 16) uniform vec4 baseColorFactor;
 layout(location = 17) uniform vec3 emissiveFactor;
 layout(location = 18) uniform ivec3 textureUvSets;  // of base colour, emission and metallic-roughness: 0 or 1
 layout(location = 19) uniform float alphaCutoff;    // below it there is no surface
-layout(location = 20) uniform float lineRadiance;   // brighter surfaces get dark lines, others bright ones; 0: no lines
+layout(location = 20) uniform float lineRadiance;   // brighter surfaces get dark lines, others bright ones
 layout(location = 21) uniform vec2 metallicRoughnessFactors;
 layout(binding = 0) uniform sampler2D baseColorTexture;
 layout(binding = 1) uniform sampler2D emissiveTexture;
@@ -31,7 +35,11 @@ vec3 showMirrored(vec3 normal, vec3 view, vec3 baseColor, vec2 surface);
 #endif
 
 vec4 sampleTexture(sampler2D image, int uvSet) {
+#ifdef TEXTURED
     return texture(image, uvSet == 1 ? uvs.zw : uvs.xy);
+#else
+    return vec4(1.0);
+#endif
 }
 
 // Tells a line from the surface that it lies on.
@@ -53,5 +61,8 @@ void main() {
     if (mirrorVisibility > 0.0) reflected += mirrorVisibility * showMirrored(normal, towardsEye, albedo, surface);
 #endif
     vec3 sent = reflected + emitted;
-    exitRadiance = vec4(lineRadiance > 0.0 ? contrast(sent) : sent, 1.0);
+#ifdef LINED
+    sent = contrast(sent);
+#endif
+    exitRadiance = vec4(sent, 1.0);
 }

@@ -97,8 +97,8 @@ void GpuGlossyRelighter::lookFrom(const Vec3f& eye) {
                             content_->radiance.buffer(content_->lobes.hasSplit()));
 }
 
-void GpuGlossyRelighter::use() const {
-    content_->radiance.use();
+void GpuGlossyRelighter::use(const SurfaceFeatures& features) const {
+    content_->radiance.use(features);
 }
 
 bool GpuGlossyRelighter::hasMirrors() const {

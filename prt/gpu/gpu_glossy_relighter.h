@@ -43,7 +43,7 @@ class GpuGlossyRelighter final : public GpuRadiance {
     /// What the eye sees of it. @param eye  in the object's frame
     void lookFrom(const Vec3f& eye);
 
-    void use() const override;
+    void use(const SurfaceFeatures& features) const override;
     bool hasMirrors() const override;
 
     /// What each vertex sends, read back.

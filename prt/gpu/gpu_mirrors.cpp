@@ -84,8 +84,4 @@ void GpuMirrors::use(const Mat3d& worldFromObject) const {
     bind(textures::kSpecularAlbedos, GL_TEXTURE_2D, specularAlbedos_, sampler_);
 }
 
-void GpuMirrors::useNone() {
-    glUniform1i(uniforms::kLevelCount, 0);
-}
-
 }  // namespace prt

@@ -23,8 +23,6 @@ class GpuMirrors {
     ///
     /// @param worldFromObject  a rotation
     void use(const Mat3d& worldFromObject) const;
-    /// Nothing is mirrored.
-    static void useNone();
 
   private:
     std::vector<float> roughnesses_;

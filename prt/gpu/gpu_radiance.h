@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "prt/gpu/surface_programs.h"
+
 namespace prt {
 
 /// What the vertices of a scene send to the eye, in the memory of the graphics card.
@@ -9,9 +11,10 @@ class GpuRadiance {
   public:
     virtual ~GpuRadiance() = default;
     virtual std::size_t vertexCount() const = 0;
-    /// Makes the program of shaders/relight.vert and surface.frag current, with its buffers.
-    virtual void use() const = 0;
-    /// Whether that program is one that wants to know GpuMirrors.
+    /// Makes its program of these features current, with its buffers.
+    /// @throws Error  unsupported where the driver refuses the program
+    virtual void use(const SurfaceFeatures& features) const = 0;
+    /// Whether a vertex may show GpuMirrors.
     virtual bool hasMirrors() const { return false; }
 };
 

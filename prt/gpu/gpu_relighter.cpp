@@ -15,7 +15,6 @@
 #include "prt/gpu/gpu_table.h"
 #include "prt/gpu/panel_light.h"
 #include "prt/gpu/shader_interface.h"
-#include "prt/gpu/shader_program.h"
 #include "prt/relight/require_layer.h"
 #include "prt/relight/vector_blocks.h"
 
@@ -31,11 +30,10 @@ const CompressedLayer& requireVectors(const CompressedTransfer& transfer, Transp
     return layer;
 }
 
-GlName linkFor(const CompressedLayer& layer) {
-    const std::string definitions = "#define RELIT 0\n#define STORED_BYTES " +
-                                    std::to_string(bytesPerCoefficient(layer.table.encoding)) +
-                                    "\n#define CLUSTERED " + (layer.bases ? "1" : "0") + "\n";
-    return linkSurfaceProgram(definitions);
+std::string defineFor(const CompressedLayer& layer) {
+    return "#define RELIT 0\n#define STORED_BYTES " +
+           std::to_string(bytesPerCoefficient(layer.table.encoding)) + "\n#define CLUSTERED " +
+           (layer.bases ? "1" : "0") + "\n";
 }
 
 /// A product as the shader has it, in 16 bytes.
@@ -60,7 +58,10 @@ struct GpuRelighter::Content {
     std::vector<StoredRange> ranges;  ///< of the columns, without clusters
     std::optional<Clusters> clusters;
     std::size_t productCount = 0;  ///< of clusters, padded
-    GlName program;
+    SurfacePrograms programs;
+    std::size_t receiverCount = 0;
+    std::size_t panelCount = 0;  ///< that are read
+    Vec3f biasRadiance{0.0f, 0.0f, 0.0f};
     GlName transfer;
     GlName receivers;
     GlName light;  ///< or products
@@ -68,12 +69,11 @@ struct GpuRelighter::Content {
     Content(const CompressedTransfer& asset, const CompressedLayer& layer)
         : bandCount(asset.bandCount),
           vertexCount(asset.receiverOfVertex.size()),
-          encoding(layer.table.encoding) {
+          encoding(layer.table.encoding),
+          programs(defineFor(layer)),
+          receiverCount(layer.table.numbers.rowCount()) {
         const CoefficientTable& table = layer.table.numbers;
         requireShaderBuffers(gpuTableBytes(table));
-        program = linkFor(layer);
-        glProgramUniform1ui(program.get(), uniforms::kReceiverCount,
-                            static_cast<GLuint>(table.rowCount()));
         transfer = uploadTable(table);
         receivers = makeBuffer(std::span(asset.receiverOfVertex), "transfer");
         if (layer.bases) {
@@ -92,8 +92,7 @@ struct GpuRelighter::Content {
         clusters.emplace(Clusters{VectorBlocks(bases.vectors, layerBandCount, layer.channelCount),
                                   std::move(firsts),
                                   makeBuffer(std::span(shaderFirsts), "clusters")});
-        const std::size_t panelCount = layer.table.numbers.panelCount();
-        glProgramUniform1ui(program.get(), uniforms::kPanelCount, static_cast<GLuint>(panelCount));
+        panelCount = layer.table.numbers.panelCount();
         // A vertex multiplies its zeros, too, with what stands behind the last product.
         productCount = clusters->vectors.vectorCount() + panelCount * CoefficientTable::kPanelWidth;
         const std::size_t byteCount = productCount * sizeof(PaddedProduct);
@@ -124,10 +123,8 @@ struct GpuRelighter::Content {
         }
         const PanelLight folded = foldLight(ranges, bandCount, lighting);
         writeBuffer(light, 0, std::as_bytes(std::span(folded.factors)));
-        glProgramUniform1ui(program.get(), uniforms::kPanelCount,
-                            static_cast<GLuint>(folded.panelCount));
-        glProgramUniform3f(program.get(), uniforms::kBiasRadiance, folded.biasRadiance.x,
-                           folded.biasRadiance.y, folded.biasRadiance.z);
+        panelCount = folded.panelCount;
+        biasRadiance = folded.biasRadiance;
     }
 };
 
@@ -152,11 +149,14 @@ void GpuRelighter::relight(const Lighting& lighting) {
     content_->relight(lighting);
 }
 
-void GpuRelighter::use() const {
+void GpuRelighter::use(const SurfaceFeatures& features) const {
     const auto bind = [](unsigned place, const GlName& buffer) {
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, place, buffer.get());
     };
-    glUseProgram(content_->program.get());
+    glUseProgram(content_->programs.find(features));
+    glUniform1ui(uniforms::kReceiverCount, static_cast<GLuint>(content_->receiverCount));
+    glUniform1ui(uniforms::kPanelCount, static_cast<GLuint>(content_->panelCount));
+    if (!content_->clusters) glUniform3fv(uniforms::kBiasRadiance, 1, &content_->biasRadiance.x);
     bind(buffers::kTransfer, content_->transfer);
     bind(buffers::kReceivers, content_->receivers);
     bind(buffers::kLight, content_->light);

@@ -39,7 +39,7 @@ class GpuRelighter final : public GpuRadiance {
     ///                  transfer go unused
     void relight(const Lighting& lighting);
 
-    void use() const override;
+    void use(const SurfaceFeatures& features) const override;
 
   private:
     struct Content;

@@ -1,5 +1,6 @@
 #include "prt/gpu/gpu_scene.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -144,6 +145,13 @@ GpuScene& GpuScene::operator=(GpuScene&&) noexcept = default;
 
 std::size_t GpuScene::vertexCount() const {
     return content_->vertexCount;
+}
+
+bool GpuScene::hasTextures() const {
+    return std::ranges::any_of(content_->parts, [](const Part& part) {
+        return part.material.baseColorTexture || part.material.emissiveTexture ||
+               part.material.metallicRoughnessTexture;
+    });
 }
 
 const Bounds& GpuScene::bounds() const {

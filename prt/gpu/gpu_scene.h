@@ -19,6 +19,7 @@ class GpuScene {
 
     std::size_t vertexCount() const;
     const Bounds& bounds() const;
+    bool hasTextures() const;
 
     /// Draws all triangles with the program that is current, which is GpuRadiance's. One-sided
     /// surfaces are invisible from behind.

@@ -7,7 +7,6 @@
 #include "prt/base/assert.h"
 #include "prt/gpu/gl_objects.h"
 #include "prt/gpu/shader_interface.h"
-#include "prt/gpu/shader_program.h"
 
 namespace prt {
 namespace {
@@ -20,11 +19,6 @@ struct PaddedRadiance {
     float padding = 0.0f;
 };
 
-GlName linkFor(bool isMirrored) {
-    return linkSurfaceProgram("#define RELIT 1\n#define CLUSTERED 0\n#define STORED_BYTES 4\n",
-                              isMirrored);
-}
-
 /// @param pad  makes a PaddedRadiance
 template <class Value, class Pad>
 void writePadded(const GlName& buffer, std::span<const Value> values, const Pad& pad) {
@@ -35,16 +29,17 @@ void writePadded(const GlName& buffer, std::span<const Value> values, const Pad&
 
 }  // namespace
 
-GpuVertexRadiance::GpuVertexRadiance(std::size_t vertexCount) : vertexCount_(vertexCount) {
+GpuVertexRadiance::GpuVertexRadiance(std::size_t vertexCount)
+    : vertexCount_(vertexCount),
+      programs_("#define RELIT 1\n#define CLUSTERED 0\n#define STORED_BYTES 4\n") {
     const std::size_t byteCount = vertexCount * sizeof(PaddedRadiance);
     requireShaderBuffers(byteCount);
-    program_ = linkFor(false);
     buffer_ = makeBuffer(byteCount, "radiance");
     upload(std::vector<Vec3f>(vertexCount, Vec3f(0.0f)));
 }
 
-void GpuVertexRadiance::use() const {
-    glUseProgram((hasMirrors_ ? mirroredProgram_ : program_).get());
+void GpuVertexRadiance::use(const SurfaceFeatures& features) const {
+    glUseProgram(programs_.find(features));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, buffers::kTransfer, buffer_.get());
 }
 
@@ -62,19 +57,14 @@ void GpuVertexRadiance::upload(std::span<const ExitRadiance> vertexRadiance) {
                               .mirrorVisibility = radiance.mirrorVisibility,
                               .constant = radiance.constant};
     });
-    chooseProgram(std::ranges::any_of(vertexRadiance, [](const ExitRadiance& radiance) {
+    hasMirrors_ = std::ranges::any_of(vertexRadiance, [](const ExitRadiance& radiance) {
         return radiance.mirrorVisibility > 0.0f;
-    }));
+    });
 }
 
 const GlName& GpuVertexRadiance::buffer(bool hasMirrors) {
-    chooseProgram(hasMirrors);
-    return buffer_;
-}
-
-void GpuVertexRadiance::chooseProgram(bool hasMirrors) {
-    if (hasMirrors && mirroredProgram_.get() == 0) mirroredProgram_ = linkFor(true);
     hasMirrors_ = hasMirrors;
+    return buffer_;
 }
 
 std::vector<ExitRadiance> GpuVertexRadiance::read() const {

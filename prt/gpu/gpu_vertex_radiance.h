@@ -18,30 +18,25 @@ class GpuVertexRadiance final : public GpuRadiance {
     explicit GpuVertexRadiance(std::size_t vertexCount);
 
     std::size_t vertexCount() const override { return vertexCount_; }
-    void use() const override;
+    void use(const SurfaceFeatures& features) const override;
     bool hasMirrors() const override { return hasMirrors_; }
 
     /// @param vertexRadiance  B of every vertex, before base colour, W·sr⁻¹·m⁻²
     void upload(std::span<const Vec3f> vertexRadiance);
     /// @param vertexRadiance  of every vertex
-    /// @throws Error          unsupported where a shader for mirrors does not compile
     void upload(std::span<const ExitRadiance> vertexRadiance);
 
     /// What a compute shader is to write: of each vertex perBaseColor, mirrorVisibility, constant
     /// and a number that is not used.
     ///
     /// @param hasMirrors  whether a vertex may have mirrorVisibility
-    /// @throws Error      unsupported where a shader for mirrors does not compile
     const GlName& buffer(bool hasMirrors);
 
     std::vector<ExitRadiance> read() const;
 
   private:
-    void chooseProgram(bool hasMirrors);
-
     std::size_t vertexCount_;
-    GlName program_;
-    GlName mirroredProgram_;  ///< empty before the first vertex that shows a mirror
+    SurfacePrograms programs_;
     bool hasMirrors_ = false;
     GlName buffer_;
 };

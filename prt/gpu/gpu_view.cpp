@@ -28,17 +28,15 @@ void drawObjects(std::span<const GpuObject> objects, const Camera& camera, const
         const Vec3f eye(objectFromWorld * (Vec3d(camera.eye) - object.worldFromObject.translation));
         const ViewFrame objectView{objectFromWorld * view.forward, objectFromWorld * view.rightward,
                                    objectFromWorld * view.upward};
-        object.radiance->use();
-        if (object.radiance->hasMirrors()) {
-            if (mirrors)
-                mirrors->use(object.worldFromObject.linear);
-            else
-                GpuMirrors::useNone();
-        }
+        const SurfaceFeatures features{.textures = object.scene->hasTextures(),
+                                       .mirrors = mirrors && object.radiance->hasMirrors(),
+                                       .lines = lineRadiance > 0.0f};
+        object.radiance->use(features);
+        if (features.mirrors) mirrors->use(object.worldFromObject.linear);
         glUniformMatrix4fv(uniforms::kClipFromEyeSpace, 1, GL_FALSE,
                            makeClipMatrix(depths, objectView).data());
         glUniform3fv(uniforms::kEye, 1, &eye.x);
-        glUniform1f(uniforms::kLineRadiance, lineRadiance);
+        if (features.lines) glUniform1f(uniforms::kLineRadiance, lineRadiance);
         object.scene->drawTriangles();
     }
 }

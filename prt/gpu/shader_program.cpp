@@ -95,13 +95,4 @@ GlName linkComputeProgram(const ShaderText& shader, const std::string& definitio
     return program;
 }
 
-GlName linkSurfaceProgram(const std::string& definitions, bool isMirrored) {
-    const ShaderText vertex = findShader("shaders/relight.vert");
-    const ShaderText fragment = findShader("shaders/surface.frag");
-    if (!isMirrored) return linkProgram(vertex, fragment, definitions);
-    const std::array called = {findShader("shaders/mirrors.frag"),
-                               findShader("shaders/lat_long.frag")};
-    return linkProgram(vertex, fragment, definitions + "#define MIRRORED\n", called);
-}
-
 }  // namespace prt

@@ -25,10 +25,6 @@ ShaderText findShader(std::string_view name);
 GlName linkProgram(const ShaderText& vertexShader, const ShaderText& fragmentShader,
                    const std::string& definitions = {}, std::span<const ShaderText> called = {});
 
-/// The program of shaders/relight.vert and surface.frag, and of mirrors.frag where they say
-/// MIRRORED.
-GlName linkSurfaceProgram(const std::string& definitions, bool isMirrored = false);
-
 /// A program of a compute shader, with the same definitions and errors.
 GlName linkComputeProgram(const ShaderText& shader, const std::string& definitions = {});
 

@@ -6,6 +6,7 @@
 
 #include "prt/base/error.h"
 #include "prt/gpu/shader_program.h"
+#include "prt/gpu/surface_programs.h"
 #include "tests/gpu/gl_test.h"
 
 namespace prt {
@@ -34,13 +35,18 @@ TEST_F(ShaderProgram, ShadersOfTheLibraryCompileInEveryForm) {
     int programCount = 0;
     for (const char* bytes : {"4", "2", "1"}) {
         for (const char* clustered : {"0", "1"}) {
-            const GlName program =
-                linkSurfaceProgram(std::string("#define RELIT 0\n#define STORED_BYTES ") + bytes +
-                                   "\n#define CLUSTERED " + clustered + "\n");
-            programCount += program.get() != 0;
+            const SurfacePrograms programs(std::string("#define RELIT 0\n#define STORED_BYTES ") +
+                                           bytes + "\n#define CLUSTERED " + clustered + "\n");
+            for (const bool hasTextures : {false, true})
+                for (const bool hasLines : {false, true})
+                    programCount += programs.find({hasTextures, false, hasLines}) != 0;
         }
     }
-    EXPECT_EQ(programCount, 6);
+    EXPECT_EQ(programCount, 24);
+    const SurfacePrograms relit("#define RELIT 1\n#define STORED_BYTES 4\n#define CLUSTERED 0\n");
+    for (const bool hasTextures : {false, true})
+        for (const bool hasLines : {false, true})
+            EXPECT_NE(relit.find({hasTextures, true, hasLines}), 0u);
 }
 
 TEST_F(ShaderProgram, ComputeShaderThatDoesNotCompileIsNamedWithItsFirstFault) {
