@@ -104,6 +104,7 @@ constexpr Form kColoredFloats{Transport::interreflected, 3};
 constexpr Form kColoredBytes{Transport::interreflected, 3, TransferEncoding::unorm8};
 constexpr Form kColoredClusters{Transport::interreflected, 3, TransferEncoding::unorm8, 64, 8};
 constexpr Form kGreyMatrices{Transport::glossy, 1, TransferEncoding::unorm8};
+constexpr Form kVisibility{Transport::glossyShadowed, 1, TransferEncoding::unorm8};
 constexpr Form kColoredMatrices{Transport::glossy, 3, TransferEncoding::unorm8};
 constexpr Form kMatrixClusters{Transport::glossy, 3, TransferEncoding::unorm8, 64, 8};
 
@@ -182,6 +183,12 @@ class Stage {
 
     void draw(const GpuRadiance& radiance) const {
         drawGpuView({{{&scene_, &radiance}}}, camera_, linear_, {&background_, rotationY(angle_)});
+    }
+    void drawWithMirrors(const GpuRadiance& radiance, GpuMirrors& mirrors) const {
+        mirrors.turn(rotationY(angle_));
+        GpuViewOptions options{&background_, rotationY(angle_)};
+        options.mirrors = &mirrors;
+        drawGpuView({{{&scene_, &radiance}}}, camera_, linear_, options);
     }
     void drawWithoutBackground(const GpuRadiance& radiance) const {
         drawGpuView({{{&scene_, &radiance}}}, camera_, linear_);
@@ -270,6 +277,30 @@ void glossyOnCpu(benchmark::State& state, const Form& form) {
     });
 }
 
+/// Every vertex mirrors what visibility lets through of the environment.
+void mirroredOnCpu(benchmark::State& state, const Form& form) {
+    openContext();
+    Scene scene = makeMiddlingTeapot();
+    scene.materials[0].roughnessFactor = 0.1f;
+    scene.materials[0].metallicFactor = 0.5f;
+    Stage stage(scene);
+    const CompressedTransfer transfer = makeTransfer(scene.vertexCount(), form);
+    const GlossyRelighter relighter(transfer, form.transport, describeReceivers(scene, transfer),
+                                    GltfViewTable({.bandCount = kBandCount}),
+                                    {.leastRoughness = 0.3});
+    GpuMirrors mirrors(makeMirrorEnvironment(makeEnvironment()));
+    GpuVertexRadiance radiance(scene.vertexCount());
+    std::vector<ExitRadiance> ofVertices(scene.vertexCount());
+    const std::size_t byteCount =
+        relighter.transferBytes() + ofVertices.size() * sizeof(ExitRadiance);
+    timeFrames(state, static_cast<double>(byteCount), [&] {
+        relighter.relight(stage.turnLight(), stage.camera().eye, 0, ofVertices);
+        radiance.upload(ofVertices);
+        stage.drawWithMirrors(radiance, mirrors);
+        stage.show();
+    });
+}
+
 void glossyOnCard(benchmark::State& state, const Form& form) {
     openContext();
     const Scene scene = makeMiddlingTeapot();
@@ -334,6 +365,7 @@ BENCHMARK_CAPTURE(glossyOnCard, teapot51k_rgb_clusters, kMatrixClusters)->Apply(
 BENCHMARK_CAPTURE(glossyOnCpu, teapot51k_u8, kGreyMatrices)->Apply(asWallClock);
 BENCHMARK_CAPTURE(glossyOnCpu, teapot51k_rgb_u8, kColoredMatrices)->Apply(asWallClock);
 BENCHMARK_CAPTURE(glossyOnCpu, teapot51k_rgb_clusters, kMatrixClusters)->Apply(asWallClock);
+BENCHMARK_CAPTURE(mirroredOnCpu, teapot51k_u8, kVisibility)->Apply(asWallClock);
 BENCHMARK_CAPTURE(parts, upload, Part::upload, makeLargeTeapot)->Apply(asWallClock);
 BENCHMARK_CAPTURE(parts, grid16k, Part::surface, makeGrid)->Apply(asWallClock);
 BENCHMARK_CAPTURE(parts, teapot100k, Part::surface, makeLargeTeapot)->Apply(asWallClock);
