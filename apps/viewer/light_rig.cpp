@@ -116,13 +116,16 @@ struct LightRig::Content {
 void LightRig::Content::collect(std::span<const LightChoice> lights) {
     statuses.clear();
     std::vector<Part> found;
+    bool isComplete = true;
     for (const LightChoice& light : lights) {
         const auto& entry = loads.at(light.source);
         statuses.push_back(entry.status);
+        if (light.isOn && entry.status.stage == LoadingStatus::Stage::waiting) isComplete = false;
         if (light.isOn && entry.value)
             found.push_back({entry.value, light.stops, light.azimuthDegrees});
     }
-    if (found == parts) return;
+    // What takes the place of a light is not preceded by darkness.
+    if (found == parts || (!isComplete && found.size() < parts.size())) return;
     parts = std::move(found);
     ++revision;
     lighting = sumLighting(parts);

@@ -31,7 +31,8 @@ class LightRig {
     /// Another one whenever the sum is.
     std::size_t revision() const;
 
-    /// Of lights that are on and have been read, of kMaxBandCount bands, world axes.
+    /// Of lights that are on and have been read, of kMaxBandCount bands, world axes. While one is
+    /// being read, it stays as it was rather than be the sum of fewer.
     const Lighting& sum() const;
     /// The same light itself, as a lat-long image: for backgrounds, mirrors and path tracing. A
     /// single image is as large as it came; the sum of several has the size of the largest, up to

@@ -182,5 +182,24 @@ TEST(LightRig, ReadsInTheBackground) {
     EXPECT_GT(rig.sum().coefficients[0].x, 0.0);
 }
 
+TEST(LightRig, ALightThatIsReplacedShinesUntilTheOtherHasBeenRead) {
+    LightRig rig{ImageLimits{}};
+    LightChoice light{.source = "uniform:1"};
+    rig.finish({&light, 1});
+    const std::size_t before = rig.revision();
+    light.source = "sky:10,40";
+    rig.update({&light, 1});
+    while (rig.statuses()[0].stage == LoadingStatus::Stage::waiting) {
+        EXPECT_EQ(rig.revision(), before);
+        EXPECT_LT(largestDifference(rig.sum(), uniformLighting(Vec3d(1.0), kMaxBandCount)),
+                  kRounding);
+        rig.update({&light, 1});
+    }
+    EXPECT_NE(rig.revision(), before);
+    light.source = "no such light";
+    rig.finish({&light, 1});
+    EXPECT_EQ(rig.sum().coefficients[0].x, 0.0);
+}
+
 }  // namespace
 }  // namespace prt::viewer
