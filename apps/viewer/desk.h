@@ -31,14 +31,7 @@ Choices findChoices(const Stage& stage, std::size_t objectCount);
 struct HeldButton {
     MouseButton button = MouseButton::left;
     Drag drag = Drag::orbit;
-    std::size_t object = 0;  ///< that turns
-    double travel = 0.0;     ///< so far, heights of the picture
-};
-
-/// A place in the picture, 0 … 1 from the left and from the top.
-struct PicturePoint {
-    double x = 0.0;
-    double y = 0.0;
+    double travel = 0.0;  ///< so far, heights of the picture
 };
 
 /// What lies about a view while somebody works on it, and is not saved with it.
@@ -50,14 +43,12 @@ struct Desk {
     bool dropsReplaceLights = true;  ///< rather than add to them
     std::size_t selectedObject = 0;
     std::string viewFile = "view.json";
-    std::string lightFolder{};  ///< whose images are offered
 
     // What has been asked for, until it is done.
-    bool wantsScreenshot = false;
+    bool wantsScreenshot = false;  ///< of the picture without what lies over it
     bool wantsSave = false;
     bool wantsLoad = false;
     bool wantsClose = false;
-    std::optional<PicturePoint> clicked{};
 
     std::optional<HeldButton> held{};
     FrameTimes frameTimes{};

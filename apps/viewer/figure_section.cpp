@@ -19,7 +19,7 @@ void drawFrameGraph(const Desk& desk) {
                      static_cast<int>(times.milliseconds().size()), 0, nullptr, 0.0f,
                      static_cast<float>(std::max(slow * 1.3, 1.0)),
                      {ImGui::GetFontSize() * 18.0f, ImGui::GetFontSize() * 4.0f});
-    ImGui::TextDisabled("50 %%: %.1f ms   95 %%: %.1f ms   99 %%: %.1f ms", median,
+    ImGui::TextDisabled("50 %%: %.1f   95 %%: %.1f   99 %%: %.1f ms", median,
                         times.percentile(0.95), slow);
 }
 

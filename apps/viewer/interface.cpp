@@ -46,7 +46,7 @@ void setColors(ImGuiStyle& style) {
     ImVec4* colors = style.Colors;
     colors[ImGuiCol_Text] = ink;
     colors[ImGuiCol_TextDisabled] = ImVec4(0.42f, 0.45f, 0.5f, 1.0f);
-    colors[ImGuiCol_WindowBg] = shade(0.975f, 0.93f);
+    colors[ImGuiCol_WindowBg] = shade(0.975f, 0.95f);
     colors[ImGuiCol_PopupBg] = shade(0.985f, 0.98f);
     colors[ImGuiCol_Border] = shade(0.0f, 0.1f);
     colors[ImGuiCol_FrameBg] = shade(0.0f, 0.06f);

@@ -77,7 +77,7 @@ void drawTurning(ViewState& view) {
 
 }  // namespace
 
-void drawLightSection(ViewState& view, Desk& desk, const Stage& stage) {
+void drawLightSection(ViewState& view, Desk& desk, const Stage& stage, LightFolder& folder) {
     ImGui::PushID("lights");
     std::optional<std::size_t> removed;
     for (std::size_t i = 0; i < view.lights.size(); ++i) {
@@ -91,7 +91,14 @@ void drawLightSection(ViewState& view, Desk& desk, const Stage& stage) {
     drawAdder(view);
     ImGui::SameLine();
     ImGui::Checkbox("drops replace", &desk.dropsReplaceLights);
-    drawTurning(view);
+    if (ImGui::TreeNode("Images of the folder")) {
+        folder.draw(view);
+        ImGui::TreePop();
+    }
+    if (ImGui::TreeNode("Turned")) {
+        drawTurning(view);
+        ImGui::TreePop();
+    }
     if (ImGui::TreeNode("Coefficients")) {
         ImGui::Checkbox("as a lobe", &view.showLightLobe);
         drawLightBars(view, stage);

@@ -40,11 +40,19 @@ std::size_t countWaiting(const Stage& stage) {
                                     count(stage.lights().statuses()));
 }
 
-std::string describePane(const Pane& pane) {
+/// What an asset shows where nothing is asked for is all that it has.
+cli::ShownTransport shownTransport(const Pane& pane, const Stage& stage) {
+    if (pane.transport) return *pane.transport;
+    if (!stage.objects().statuses().empty())
+        if (const auto asset = stage.objects().asset(0)) return cli::fullestShown(asset->transfer);
+    return cli::ShownTransport::unshadowed;
+}
+
+std::string describePane(const Pane& pane, const Stage& stage) {
     if (pane.content == PaneContent::reference) return "path-traced reference";
     if (pane.content == PaneContent::coefficient)
         return "coefficient " + std::to_string(pane.coefficient);
-    std::string text(pane.transport ? cli::shownTransportName(*pane.transport) : "fullest");
+    std::string text(cli::shownTransportName(shownTransport(pane, stage)));
     if (pane.bandCount < kMaxBandCount)
         text += ", " + std::to_string(pane.bandCount) + (pane.bandCount == 1 ? " band" : " bands");
     return text;
@@ -77,6 +85,14 @@ void drawToasts(Desk& desk) {
     endTile();
 }
 
+void drawFrameTile(const Desk& desk) {
+    if (!desk.showsFrameTimes || desk.isPanelOpen) return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    beginTile("frames", {size.x - marginPixels(), size.y - marginPixels()}, {1.0f, 1.0f});
+    drawFrameGraph(desk);
+    endTile();
+}
+
 void drawHint(const Desk& desk) {
     if (!desk.showsHint) return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -105,7 +121,7 @@ void drawHelp(Desk& desk) {
     ImGui::End();
 }
 
-void drawSplitLine(const ViewState& view) {
+void drawSplitLine(const ViewState& view, const Stage& stage) {
     if (!view.right) return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float x = size.x * static_cast<float>(view.splitPosition);
@@ -117,10 +133,10 @@ void drawSplitLine(const ViewState& view) {
     drawing->AddCircle({x, 0.5f * size.y}, 0.5f * font, IM_COL32(0, 0, 0, 110), 0, 0.1f * font);
     const float below = size.y - marginPixels();
     beginTile("left half", {x - marginPixels(), below}, {1.0f, 1.0f});
-    ImGui::TextUnformatted(describePane(view.left).c_str());
+    ImGui::TextUnformatted(describePane(view.left, stage).c_str());
     endTile();
     beginTile("right half", {x + marginPixels(), below}, {0.0f, 1.0f});
-    ImGui::TextUnformatted(describePane(*view.right).c_str());
+    ImGui::TextUnformatted(describePane(*view.right, stage).c_str());
     endTile();
 }
 

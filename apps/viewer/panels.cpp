@@ -39,7 +39,7 @@ void drawButtons(Desk& desk) {
 
 }  // namespace
 
-void drawPanel(ViewState& view, Desk& desk, const Stage& stage) {
+void drawPanel(ViewState& view, Desk& desk, const Stage& stage, LightFolder& folder) {
     if (!desk.isPanelOpen) return drawOpener(desk);
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float width = ImGui::GetFontSize() * 22.0f;
@@ -51,10 +51,10 @@ void drawPanel(ViewState& view, Desk& desk, const Stage& stage) {
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
     ImGui::PushItemWidth(ImGui::GetFontSize() * 10.5f);
     drawButtons(desk);
-    if (beginSection("Light", true)) drawLightSection(view, desk, stage);
+    if (beginSection("Light", true)) drawLightSection(view, desk, stage, folder);
     if (beginSection("Picture", true)) drawPictureSection(view, desk, stage);
     if (beginSection("Objects", false)) drawObjectSection(view, desk, stage);
-    if (beginSection("Figures", desk.showsFrameTimes)) drawFigureSection(desk);
+    if (beginSection("Figures", false)) drawFigureSection(desk);
     ImGui::PopItemWidth();
     ImGui::End();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/viewer/desk.h"
+#include "apps/viewer/light_folder.h"
 #include "apps/viewer/stage.h"
 #include "apps/viewer/view_state.h"
 
@@ -10,10 +11,10 @@ namespace prt::viewer {
 // as a person tells it.
 
 /// The side panel with its sections, or the button that opens it.
-void drawPanel(ViewState& view, Desk& desk, const Stage& stage);
+void drawPanel(ViewState& view, Desk& desk, const Stage& stage, LightFolder& folder);
 
 // Sections of the panel.
-void drawLightSection(ViewState& view, Desk& desk, const Stage& stage);
+void drawLightSection(ViewState& view, Desk& desk, const Stage& stage, LightFolder& folder);
 void drawPictureSection(ViewState& view, Desk& desk, const Stage& stage);
 void drawObjectSection(ViewState& view, Desk& desk, const Stage& stage);
 void drawFigureSection(const Desk& desk);
@@ -21,8 +22,10 @@ void drawFigureSection(const Desk& desk);
 /// The energy of each band of the light, and its coefficients.
 void drawLightBars(const ViewState& view, const Stage& stage);
 
-/// The time of the last frames, with percentiles.
+/// The time of the last frames, with percentiles: in the panel, and in a corner where the panel is
+/// closed.
 void drawFrameGraph(const Desk& desk);
+void drawFrameTile(const Desk& desk);
 
 /// What could not be read or shown, and what is being read, in a corner.
 void drawTiles(const Stage& stage);
@@ -33,6 +36,6 @@ void drawHint(const Desk& desk);
 /// All that mouse and keys do.
 void drawHelp(Desk& desk);
 /// The line that splits the picture, and what stands left and right of it.
-void drawSplitLine(const ViewState& view);
+void drawSplitLine(const ViewState& view, const Stage& stage);
 
 }  // namespace prt::viewer

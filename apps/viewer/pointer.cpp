@@ -30,17 +30,25 @@ bool isMouseOnSplit(const ViewState& view) {
     return isOnSplit(view, mousePoint().x, kSplitMarginPixels / width);
 }
 
-void beginDrag(const ViewState& view, Desk& desk) {
+double aspectRatio() {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    return static_cast<double>(size.x) / static_cast<double>(size.y);
+}
+
+void beginDrag(const ViewState& view, Desk& desk, const Stage& stage, Picker& picker) {
     const ImGuiIO& io = ImGui::GetIO();
     const Modifiers modifiers{.shift = io.KeyShift, .control = io.KeyCtrl, .alt = io.KeyAlt};
     for (const auto& [button, imgui] : kButtons)
         if (ImGui::IsMouseClicked(imgui))
             desk.held = HeldButton{.button = button,
-                                   .drag = chooseDrag(button, modifiers, isMouseOnSplit(view)),
-                                   .object = desk.selectedObject};
+                                   .drag = chooseDrag(button, modifiers, isMouseOnSplit(view))};
+    if (!desk.held || desk.held->drag != Drag::turnObject) return;
+    if (const auto picked = picker.pick(stage, view, mousePoint(), aspectRatio()))
+        desk.selectedObject = picked->object;
 }
 
-void continueDrag(ViewState& view, Desk& desk, const CameraPose& pose) {
+/// @return whether the mouse has clicked, rather than dragged
+bool continueDrag(ViewState& view, Desk& desk, const CameraPose& pose) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto height = static_cast<double>(io.DisplaySize.y);
     const MouseStep step{static_cast<double>(io.MouseDelta.x) / height,
@@ -49,13 +57,13 @@ void continueDrag(ViewState& view, Desk& desk, const CameraPose& pose) {
     held.travel += std::hypot(step.rightward, step.downward);
     const bool isClick = held.travel <= kClickTravel;
     if (!isClick) {
-        applyDrag(view, held.drag, step, pose, static_cast<double>(io.DisplaySize.x) / height,
-                  held.object);
+        applyDrag(view, held.drag, step, pose, aspectRatio(), desk.selectedObject);
         desk.showsHint = false;
     }
-    if (ImGui::IsMouseDown(imguiButton(held.button))) return;
-    if (isClick && held.drag == Drag::orbit) desk.clicked = mousePoint();
+    if (ImGui::IsMouseDown(imguiButton(held.button))) return false;
+    const bool isPlainClick = isClick && held.drag == Drag::orbit;
     desk.held.reset();
+    return isPlainClick;
 }
 
 }  // namespace
@@ -66,16 +74,15 @@ PicturePoint mousePoint() {
             static_cast<double>(io.MousePos.y / io.DisplaySize.y)};
 }
 
-void followMouse(ViewState& view, Desk& desk, const Stage& stage) {
+void followMouse(ViewState& view, Desk& desk, const Stage& stage, Picker& picker) {
     const ImGuiIO& io = ImGui::GetIO();
-    if (io.DisplaySize.x <= 0.0f || io.DisplaySize.y <= 0.0f) return;
-    const CameraPose pose =
-        stage.cameraPose(view, static_cast<double>(io.DisplaySize.x / io.DisplaySize.y));
+    const CameraPose pose = stage.cameraPose(view, aspectRatio());
     if (!io.WantCaptureMouse && !desk.held) {
         if (io.MouseWheel != 0.0f) applyWheel(view, static_cast<double>(io.MouseWheel), pose);
-        beginDrag(view, desk);
+        beginDrag(view, desk, stage, picker);  // the way to there is not part of it
+    } else if (desk.held && continueDrag(view, desk, pose)) {
+        view.picked = picker.pick(stage, view, mousePoint(), aspectRatio());
     }
-    if (desk.held) continueDrag(view, desk, pose);
     const bool movesSplit = desk.held ? desk.held->drag == Drag::moveSplit
                                       : !io.WantCaptureMouse && isMouseOnSplit(view);
     if (movesSplit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);

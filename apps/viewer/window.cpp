@@ -24,8 +24,8 @@ namespace prt::viewer {
 namespace {
 
 constexpr const char* kTitle = "OpenPRT";
-constexpr int kSampleCount = 4;        ///< a pixel
-constexpr double kRestSeconds = 0.25;  ///< without a change, until pictures are fine again
+constexpr int kSampleCount = 4;       ///< a pixel
+constexpr double kRestSeconds = 0.6;  ///< without a change, until pictures are fine again
 constexpr double kLeastWaitSeconds = 1e-3;
 
 /// A view in a window, and all that is done to it there.
@@ -64,6 +64,8 @@ class Session {
     Stage stage_;
     Interface interface_;
     bool isRoughWhileMoving_;  ///< one sample a pixel
+    Picker picker_;
+    LightFolder folder_;
     ViewState view_;
     Desk desk_;
 
@@ -120,7 +122,7 @@ bool Session::isReading() const {
 double Session::secondsToWait() const {
     constexpr double kLongest = 10.0, kWhileReading = 0.05;
     if (isFlying_ || framesToCome_ > 0 || !picture_) return 0.0;
-    double seconds = isReading() ? kWhileReading : kLongest;
+    double seconds = isReading() || folder_.isBusy() ? kWhileReading : kLongest;
     for (const Toast& toast : desk_.toasts)
         seconds = std::min(seconds, toast.endSeconds - desk_.seconds);
     if (sampleCount_ < kSampleCount)
@@ -167,10 +169,11 @@ void Session::fly(double seconds) {
 }
 
 void Session::layPanels() {
-    drawSplitLine(view_);
-    drawPanel(view_, desk_, stage_);
+    drawSplitLine(view_, stage_);
+    drawPanel(view_, desk_, stage_, folder_);
     drawTiles(stage_);
     drawHint(desk_);
+    drawFrameTile(desk_);
     drawToasts(desk_);
     drawHelp(desk_);
 }
@@ -200,9 +203,11 @@ void Session::frame(const std::string& picturePath) {
     handleDrops();
     handleKeys();
     fly(start - std::exchange(desk_.seconds, start));
-    followMouse(view_, desk_, stage_);
+    attempt([&] { followMouse(view_, desk_, stage_, picker_); });
     layPanels();
+    const bool wasReading = isReading();
     stage_.update(view_);
+    if (wasReading != isReading()) framesToCome_ = 1;
     const bool isNew = drawPicture(width, height);
     window_.bindFramebuffer();
     stage_.present(view_);

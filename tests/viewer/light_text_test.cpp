@@ -22,7 +22,8 @@ TEST(LightText, IsFoundAgainFromItsText) {
 }
 
 TEST(LightText, OfEverySliderEndIsALight) {
-    for (const LightKind kind : kKinds)
+    // Daylight has the numbers of a sky.
+    for (const LightKind kind : {LightKind::uniform, LightKind::sun, LightKind::sky})
         for (const auto end : {&LightNumber::least, &LightNumber::most, &LightNumber::usual}) {
             LightText light{.kind = kind};
             for (std::size_t i = 0; i < 3; ++i)
