@@ -214,10 +214,13 @@ TEST(ReferenceTracer, WhatCannotBeTracedIsTold) {
 }
 
 TEST(ReferenceTracer, ClosesWhileItIsBusy) {
-    // The first coarse picture of this size takes minutes: it ends sooner, or is cut off.
-    ReferenceRequest request = makeShadowRequest();
-    request.width = 8192;
-    request.height = 8192;
+    // In a closed white room paths bounce on and on: the first coarse picture of this size takes
+    // many minutes. It is cut off, or the test is.
+    ReferenceRequest request = makeRequest(
+        {{makeAsset(
+            test::assembleScene({{makeBox(Vec3f(-1.0f), Vec3f(1.0f), true, 1), Vec3f(0.99f)}}))}},
+        8192, 8192);
+    request.camera = lookAt(Vec3f(0.0f), {0.0f, 0.0f, 1.0f}, 0.6f);
     request.model.bounceCount = kUnlimitedBounces;
     ReferenceTracer tracer;
     tracer.trace(request);

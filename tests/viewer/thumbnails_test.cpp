@@ -1,8 +1,9 @@
 #include "apps/viewer/thumbnails.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
-#include "prt/image/sphere_map.h"
 #include "tests/support/temporary_folder.h"
 
 namespace prt::viewer {
@@ -41,6 +42,22 @@ TEST(Thumbnails, ShowsTheImagesOfAFolderByName) {
     const Rgba8 orange = thumbnails.all()[0].picture->at(50, 20);
     EXPECT_GT(orange.red, orange.green);
     EXPECT_GT(orange.green, orange.blue);
+}
+
+TEST(Thumbnails, ABrightAndADimLightLookAlike) {
+    const test::TemporaryFolder folder;
+    for (const float brightness : {1e-3f, 1.0f, 1e3f})
+        writeExr(folder.path() / (std::to_string(brightness) + ".exr"),
+                 makeHalves(200, Vec3f(0.5f, 0.7f, 1.0f) * brightness, Vec3f(0.1f) * brightness));
+    Thumbnails thumbnails;
+    thumbnails.open(folder.path());
+    thumbnails.finish();
+    ASSERT_EQ(thumbnails.all().size(), 3u);
+    for (const Thumbnail& thumbnail : thumbnails.all()) {
+        EXPECT_NEAR(thumbnail.picture->at(5, 5).red, thumbnails.all()[0].picture->at(5, 5).red, 1);
+        EXPECT_GT(thumbnail.picture->at(5, 5).red, 100);
+        EXPECT_LT(thumbnail.picture->at(5, 40).red, 150);
+    }
 }
 
 TEST(Thumbnails, AWrongFileHasASentenceAndNoPicture) {
