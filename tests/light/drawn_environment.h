@@ -53,10 +53,13 @@ inline Vec3d integrate(const Environment& environment) {
     return sum * (4.0 * std::numbers::pi / solidAngle);
 }
 
+/// NaN where any of them is.
 inline double maxDifference(const Lighting& a, const Lighting& b) {
     double difference = 0.0;
     for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
-        difference = std::max(difference, (a.coefficients[i] - b.coefficients[i]).length());
+        const double length = (a.coefficients[i] - b.coefficients[i]).length();
+        if (std::isnan(length)) return length;
+        difference = std::max(difference, length);
     }
     return difference;
 }
