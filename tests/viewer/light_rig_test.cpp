@@ -32,8 +32,11 @@ Image makeNoise(int width, int height) {
 double largestDifference(const Lighting& a, const Lighting& b) {
     EXPECT_EQ(a.bandCount, b.bandCount);
     double largest = 0.0;
-    for (std::size_t i = 0; i < a.coefficients.size(); ++i)
-        largest = std::max(largest, (a.coefficients[i] - b.coefficients[i]).length());
+    for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
+        const double length = (a.coefficients[i] - b.coefficients[i]).length();
+        EXPECT_FALSE(std::isnan(length)) << i;
+        largest = std::max(largest, length);
+    }
     return largest;
 }
 
