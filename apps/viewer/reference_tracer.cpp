@@ -173,6 +173,7 @@ struct ReferenceTracer::Content {
             const std::lock_guard lock(mutex);
             isStopping = true;
             ++revision;
+            ++sizeRevision;
         }
         changed.notify_all();
         thread.join();
@@ -181,9 +182,12 @@ struct ReferenceTracer::Content {
     void ask(std::optional<ReferenceRequest> next) {
         {
             const std::lock_guard lock(mutex);
+            const bool isAsLarge =
+                next && request && next->width == request->width && next->height == request->height;
+            picture = {isAsLarge ? picture.radiance : nullptr, 0, {}};
             request = std::move(next);
-            picture = {};
             ++revision;
+            if (!isAsLarge) ++sizeRevision;
         }
         changed.notify_all();
     }
@@ -196,7 +200,7 @@ struct ReferenceTracer::Content {
     void run();
     /// @param isBegun  whether the last picture was of the same request
     ReferencePicture tracePass(Tracing& tracing, const ReferenceRequest& traced, bool isBegun,
-                               std::size_t ofRevision) const;
+                               const ProgressCallback& progress) const;
 
     const ReferenceTracerOptions options;
     std::mutex mutex;
@@ -204,8 +208,9 @@ struct ReferenceTracer::Content {
     std::optional<ReferenceRequest> request;
     ReferencePicture picture;  ///< of the request
     bool isStopping = false;
-    std::atomic<std::size_t> revision = 0;  ///< of the request
-    std::thread thread;                     ///< last, when all else stands
+    std::atomic<std::size_t> revision = 0;      ///< of the request
+    std::atomic<std::size_t> sizeRevision = 0;  ///< of its size
+    std::thread thread;                         ///< last, when all else stands
 };
 
 void ReferenceTracer::Content::run() {
@@ -222,26 +227,32 @@ void ReferenceTracer::Content::run() {
         const std::size_t ofRevision = revision;
         const bool isBegun = tracing && begunRevision == ofRevision;
         begunRevision = ofRevision;
+        // A first picture is finished though another view is asked for meanwhile, so that who
+        // turns it without a pause sees some.
+        const std::atomic<std::size_t>& current = isBegun ? revision : sizeRevision;
+        const std::size_t ofCurrent = current;
         const ReferenceRequest traced = *request;
         lock.unlock();
         if (!tracing) tracing.emplace();
-        ReferencePicture next = tracePass(*tracing, traced, isBegun, ofRevision);
+        ReferencePicture next = tracePass(*tracing, traced, isBegun,
+                                          [&](const Progress&) { return current == ofCurrent; });
         lock.lock();
-        if (revision == ofRevision) picture = std::move(next);
+        const bool isLate = revision != ofRevision;
+        if (current == ofCurrent && !(isLate && !next.radiance)) picture = std::move(next);
         changed.notify_all();
     }
 }
 
 ReferencePicture ReferenceTracer::Content::tracePass(Tracing& tracing,
                                                      const ReferenceRequest& traced, bool isBegun,
-                                                     std::size_t ofRevision) const {
+                                                     const ProgressCallback& progress) const {
     try {
         if (!isBegun) {
             const int cores = resolveThreadCount(0);
             tracing.begin(traced,
                           options.threadCount > 0 ? options.threadCount : std::max(1, cores - 1));
         }
-        return tracing.advance([&](const Progress&) { return revision == ofRevision; });
+        return tracing.advance(progress);
     } catch (const Error& error) {
         return {nullptr, 0, error.message()};
     } catch (const std::exception&) {

@@ -48,7 +48,7 @@ bool operator==(const ReferenceRequest& a, const ReferenceRequest& b);
 /// How far a reference has come.
 struct ReferencePicture {
     std::shared_ptr<const Image> radiance{};  ///< linear, of the size asked for; null at first
-    int pathsPerPixel = 0;  ///< of which it is the mean; 0: a coarse picture, to begin with
+    int pathsPerPixel = 0;  ///< of which it is the mean; 0: coarse, or of an earlier request
     std::string failure{};  ///< why there will be none; one sentence
 };
 
@@ -69,8 +69,9 @@ class ReferenceTracer {
     /// Rests until the next request, and forgets the last.
     void stop();
 
-    /// Of the last request: first coarse pictures, then the mean of all paths so far. A picture of
-    /// so many paths has the same bits however it came to be (C10).
+    /// Of the last request: coarse pictures, then the mean of all paths so far. A picture of so
+    /// many paths has the same bits however it came to be (C10). Until there is the first, that of
+    /// the request before stays, if it was as large.
     ReferencePicture picture() const;
     /// The same once it has so many paths a pixel, or failed.
     ReferencePicture finish(int pathsPerPixel);

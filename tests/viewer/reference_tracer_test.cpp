@@ -131,7 +131,6 @@ TEST(ReferenceTracer, AnEqualRequestGoesOnAndAnotherBeginsAnew) {
 
     request.lighting = scale(*request.lighting, 2.0);
     tracer.trace(request);
-    EXPECT_NE(tracer.picture().radiance, done);
     const Image brighter = *tracer.finish(8).radiance;
     request.showBackground = false;
     tracer.trace(request);
@@ -161,6 +160,23 @@ TEST(ReferenceTracer, BeginsWithACoarsePicture) {
     EXPECT_EQ(first.radiance->height, 1200);
     EXPECT_EQ(first.pathsPerPixel, 0);
     EXPECT_NEAR(meanAround(*first.radiance, 800, 600, 80).y, 0.5f, 0.02f);
+}
+
+TEST(ReferenceTracer, WhoTurnsTheViewWithoutAPauseSeesItToo) {
+    ReferenceRequest request = makeRequest({{makeBall(Vec3f(0.5f))}}, 1600, 1200);
+    ReferenceTracer tracer;
+    // Every request is gone long before its first picture could be finished.
+    for (int pictureCount = 0; pictureCount < 2;) {
+        const auto before = tracer.picture().radiance;
+        request.camera.eye.x += 1e-4f;
+        tracer.trace(request);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (tracer.picture().radiance != before) ++pictureCount;
+    }
+    request.width = 1599;
+    tracer.trace(request);
+    const ReferencePicture other = tracer.picture();
+    EXPECT_TRUE(!other.radiance || other.radiance->width == 1599);
 }
 
 TEST(ReferenceTracer, TurnsTheEnvironmentAndPlacesObjects) {
