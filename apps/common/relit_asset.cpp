@@ -128,25 +128,28 @@ const Relighter& AssetRelighter::vectorRelighter(ShownTransport shown) {
 }
 
 const GlossyRelighter& AssetRelighter::glossyRelighter(ShownTransport shown) {
-    if (lastGlossy_ && lastGlossy_->first == shown) return lastGlossy_->second;
-    lastGlossy_.reset();  // before there are two
+    if (!lastGlossy_ || lastGlossy_->first != shown) {
+        lastGlossy_.reset();  // before there are two
+        lastGlossy_.emplace(shown, makeGlossyRelighter<GlossyRelighter>(shown));
+    }
+    return lastGlossy_->second;
+}
+
+AssetRelighter::GlossyInputs AssetRelighter::prepareGlossy(ShownTransport shown) {
     if (!isAvailable(asset_.transfer, shown)) throwLacking(shown, path_);
     const int incidentBandCount = findIncidentBandCount(asset_.transfer, shown);
     if (!views_ || views_->bandCount() != incidentBandCount)
         views_.emplace(GltfViewTableOptions{.bandCount = incidentBandCount});
-    const GlossyRelightOptions options{.leastRoughness = leastRoughnessHeld(incidentBandCount),
-                                       .materialTables = makeViewTables(brdfs_, incidentBandCount)};
-    std::optional<CompressedTransfer> ofNormals;
+    GlossyInputs inputs{
+        .layer = shown == ShownTransport::glossy ? Transport::glossy : Transport::glossyShadowed,
+        .options = {.leastRoughness = leastRoughnessHeld(incidentBandCount),
+                    .materialTables = makeViewTables(brdfs_, incidentBandCount)}};
     if (shown == ShownTransport::glossyUnshadowed)
-        ofNormals = storeAsFloats(
+        inputs.ofNormals = storeAsFloats(
             makeUnshadowedMatrices(asset_.scene, asset_.transfer.bandCount, incidentBandCount));
-    const CompressedTransfer& transfer = ofNormals ? *ofNormals : asset_.transfer;
-    const Transport layer =
-        shown == ShownTransport::glossy ? Transport::glossy : Transport::glossyShadowed;
-    lastGlossy_.emplace(
-        shown, GlossyRelighter(transfer, layer, describeReceivers(asset_.scene, transfer), *views_,
-                               options));
-    return lastGlossy_->second;
+    inputs.receivers =
+        describeReceivers(asset_.scene, inputs.ofNormals ? *inputs.ofNormals : asset_.transfer);
+    return inputs;
 }
 
 bool hasMirrors(const std::vector<ExitRadiance>& vertexRadiance) {

@@ -57,7 +57,23 @@ class AssetRelighter {
     const Relighter& vectorRelighter(ShownTransport shown);
     const GlossyRelighter& glossyRelighter(ShownTransport shown);
 
+    /// What relights one layer of matrices: GlossyRelighter, or what is made as it is.
+    template <class MatrixRelighter>
+    MatrixRelighter makeGlossyRelighter(ShownTransport shown) {
+        const GlossyInputs inputs = prepareGlossy(shown);
+        return MatrixRelighter(inputs.ofNormals ? *inputs.ofNormals : asset_.transfer, inputs.layer,
+                               inputs.receivers, *views_, inputs.options);
+    }
+
   private:
+    struct GlossyInputs {
+        std::optional<CompressedTransfer> ofNormals{};  ///< where the asset has no such layer
+        Transport layer{};
+        std::vector<ReceiverSurface> receivers{};
+        GlossyRelightOptions options{};
+    };
+    GlossyInputs prepareGlossy(ShownTransport shown);
+
     const Asset& asset_;
     std::string path_;
     GivenBrdfs brdfs_;

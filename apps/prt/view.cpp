@@ -41,6 +41,7 @@ struct ViewCommandArguments {
     std::string script;
     int benchmarkFrames = 0;
     int sampleCount = 4;
+    int referenceSamples = 64;
     Relit relit = Relit::automatic;
     int threadCount = 0;
     ReaderLimits limits;
@@ -77,6 +78,8 @@ void runView(const ViewCommandArguments& arguments) {
     const std::vector<viewer::ScriptStep> script = makeScript(arguments);
     viewer::StageOptions stage{.limits = arguments.limits.images(),
                                .threadCount = arguments.threadCount};
+    if (arguments.offscreen || !script.empty())
+        stage.awaitedPathsPerPixel = arguments.referenceSamples;
     if (arguments.relit != Relit::automatic)
         stage.relightsOnCard = arguments.relit == Relit::opengl;
     const viewer::OffscreenOptions offscreen{.width = arguments.size.width,
@@ -147,6 +150,8 @@ void addViewCommand(CLI::App& app) {
     benchmark->excludes(screenshot)->excludes(script);
     addIntegerOption(*command, "--samples", arguments->sampleCount, 1, 64,
                      "a pixel, of what is drawn offscreen");
+    addIntegerOption(*command, "--reference-samples", arguments->referenceSamples, 1, 1 << 20,
+                     "paths a pixel of a path-traced pane, in pictures that are written");
     addParsedOption(*command, "--relight", arguments->relit, parseRelit, "auto|cpu|opengl",
                     "what relights; auto: opengl on a graphics card")
         ->default_str("auto");

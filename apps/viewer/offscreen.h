@@ -13,7 +13,7 @@ struct OffscreenOptions {
     int width = 1280;
     int height = 720;
     int sampleCount = 4;  ///< a pixel
-    StageOptions stage{};
+    StageOptions stage{.awaitedPathsPerPixel = 64};
 };
 
 /// Writes the picture of a view: .exr as linear radiance without lobes, .png as the window shows

@@ -8,6 +8,7 @@
 #include "apps/common/relit_asset.h"
 #include "apps/viewer/view_state.h"
 #include "prt/asset/asset.h"
+#include "prt/gpu/gpu_glossy_relighter.h"
 #include "prt/gpu/gpu_relighter.h"
 #include "prt/gpu/gpu_scene.h"
 #include "prt/gpu/gpu_vertex_radiance.h"
@@ -16,7 +17,7 @@ namespace prt::viewer {
 
 struct RelightingOptions {
     int threadCount = 0;  ///< 0: one a core
-    bool onCard = true;   ///< vectors are relit by OpenGL
+    bool onCard = true;   ///< what has been baked is relit by OpenGL
 };
 
 /// The layer that a pane shows of an asset: the one that was asked for, or else all there is.
@@ -32,6 +33,7 @@ class ShownObject {
                 const RelightingOptions& options);
 
     const Asset& asset() const { return *asset_; }
+    const std::shared_ptr<const Asset>& sharedAsset() const { return asset_; }
     const GpuScene& scene() const { return scene_; }
 
     /// Nothing is done where nothing has changed since the last time for this pane.
@@ -41,24 +43,33 @@ class ShownObject {
     const GpuRadiance& relight(std::size_t paneIndex, const Pane& pane, const Lighting& lighting,
                                const Vec3f& eye);
 
+    /// The transfer of a vertex, in the object's frame; none where it follows from normals alone.
+    ///
+    /// @param shown  that the pane shows
+    /// @param eye    in the object's frame, for surfaces that are not diffuse
+    std::optional<Lighting> expandVertex(std::size_t paneIndex, cli::ShownTransport shown,
+                                         std::size_t vertex, const Vec3f& eye);
+
   private:
     /// What one pane shows.
     struct Relit {
+        const GpuRadiance* radiance = nullptr;  ///< the last
         Pane pane;
+        cli::ShownTransport shown{};
         std::vector<Vec3d> coefficients;
         Vec3f eye{0.0f, 0.0f, 0.0f};
         std::optional<cli::AssetRelighter> relighter;
-        std::optional<GpuRelighter> onCard;
+        std::optional<GpuRelighter> vectorsOnCard;
+        std::optional<GpuGlossyRelighter> matricesOnCard;
         std::optional<GpuVertexRadiance> uploaded;
         std::vector<Vec3f> vertexRadiance;  ///< before it goes to the card, kept for its memory
     };
 
-    bool isUpToDate(const Relit& relit, const Pane& pane, const Lighting& lighting,
-                    const Vec3f& eye) const;
-    void relightOnCard(Relit& relit, cli::ShownTransport shown, bool isNew,
-                       const Lighting& lighting) const;
-    void relightHere(Relit& relit, cli::ShownTransport shown, const Lighting& lighting,
-                     const Vec3f& eye) const;
+    const GpuRadiance& relightOnCard(Relit& relit, cli::ShownTransport shown,
+                                     const Lighting& lighting, const Vec3f& eye) const;
+    const GpuRadiance& relightHere(Relit& relit, cli::ShownTransport shown,
+                                   const Lighting& lighting, const Vec3f& eye) const;
+    cli::AssetRelighter& relighterOf(Relit& relit) const;
 
     std::shared_ptr<const Asset> asset_;
     std::string path_;

@@ -1,18 +1,18 @@
 #include "apps/viewer/stage.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
-#include <vector>
 
 #include "apps/common/parse.h"
 #include "apps/common/picture.h"
 #include "apps/common/ringing.h"
-#include "apps/viewer/placement.h"
-#include "apps/viewer/shown_object.h"
-#include "prt/base/error.h"
+#include "apps/viewer/mirror_light.h"
+#include "apps/viewer/staged_objects.h"
+#include "apps/viewer/view_lobes.h"
+#include "prt/base/assert.h"
 #include "prt/gpu/gl_context.h"
 #include "prt/gpu/gpu_background.h"
 #include "prt/gpu/gpu_display.h"
@@ -23,24 +23,42 @@
 namespace prt::viewer {
 namespace {
 
-/// A pane and the columns of the picture that it fills.
-struct PlacedPane {
+/// A side of the picture: a pane, the columns that it fills, and what was drawn there.
+struct Side {
     std::size_t index = 0;
-    const Pane* pane = nullptr;
+    Pane pane{};
     PixelColumns columns{};
+    std::vector<GpuObject> drawn{};
 };
 
-std::vector<PlacedPane> placePanes(const ViewState& view, int width) {
-    if (!view.right) return {{0, &view.left, {}}};
+std::vector<Side> placePanes(const ViewState& view, int width) {
+    if (!view.right) return {{.index = 0, .pane = view.left}};
     const int split = static_cast<int>(std::lround(view.splitPosition * width));
-    return {{0, &view.left, {0, split}}, {1, &*view.right, {split, width}}};
+    return {{.index = 0, .pane = view.left, .columns = {0, split}},
+            {.index = 1, .pane = *view.right, .columns = {split, width}}};
 }
 
-/// An object of the view on the card, or why it is not there.
-struct StagedObject {
-    std::shared_ptr<const Asset> asset{};
-    std::unique_ptr<ShownObject> shown{};
-    std::optional<std::string> failure{};
+Mat3d worldFromLight(const ViewState& view) {
+    return cli::rotationFromDegrees(view.lightRotationDegrees);
+}
+
+/// Something made of the lights, until they are others.
+template <class Value>
+class OfLights {
+  public:
+    template <class Make>
+    Value& get(const LightRig& rig, const Make& make) {
+        if (!value_ || revision_ != rig.revision()) {
+            value_.reset();
+            value_.emplace(make());
+            revision_ = rig.revision();
+        }
+        return *value_;
+    }
+
+  private:
+    std::optional<Value> value_;
+    std::size_t revision_ = 0;
 };
 
 }  // namespace
@@ -50,83 +68,39 @@ struct Stage::Content {
     RelightingOptions relighting;
     ObjectShelf shelf;
     LightRig rig;
-    GpuDisplay display;
-    std::vector<StagedObject> staged;
+    StagedObjects staged;
+    MirrorLight mirrors;
+    ReferenceTracer tracer;
+    ReferencePicture reference;
+    ViewLobes lobes;
+    GpuDisplay screen;
+    OfLights<GpuBackground> background;
+    mutable OfLights<float> brightness;  ///< stops that show a white sphere well
+    /// The factors of the window "auto", for so many bands.
+    mutable OfLights<std::map<int, std::vector<double>>> deringing;
+
+    // What was drawn last.
     std::optional<GpuTarget> target;
     int sampleCount = 0;
-    std::optional<GpuBackground> background;
-    std::size_t backgroundRevision = 0;
-    float brightness = 0.0f;  ///< of the lights, in stops, for automatic exposure
-    std::size_t brightnessRevision = 0;
-    /// The factors of the window "auto", for so many bands of the light as it is.
-    mutable std::map<int, std::vector<double>> deringing;
-    mutable std::size_t deringingRevision = 0;
+    Camera camera;
+    std::vector<StandingObject> standing;
+    std::vector<Side> sides;
+    bool showsMirrors = false;
+    bool tracesReference = false;
 
     explicit Content(const StageOptions& given)
         : options(given),
           relighting{.threadCount = given.threadCount,
                      .onCard = given.relightsOnCard.value_or(!isSoftwareRasteriser())},
           shelf(given.limits),
-          rig(given.limits) {}
+          rig(given.limits),
+          staged(relighting) {}
 
-    /// Puts what has been read onto the card.
-    void stage(const ViewState& view) {
-        std::vector<StagedObject> next(view.objects.size());
-        for (std::size_t i = 0; i < next.size(); ++i) {
-            next[i].asset = shelf.asset(i);
-            if (!next[i].asset) continue;
-            const auto same = std::find_if(staged.begin(), staged.end(), [&](StagedObject& old) {
-                return old.asset == next[i].asset && (old.shown || old.failure);
-            });
-            if (same != staged.end())
-                std::swap(next[i], *same);
-            else
-                putOnCard(next[i], view.objects[i].asset);
-        }
-        staged = std::move(next);
-    }
-
-    void putOnCard(StagedObject& object, const std::string& path) const {
-        try {
-            object.shown = std::make_unique<ShownObject>(object.asset, path, relighting);
-        } catch (const Error& error) {
-            object.failure = path + ": " + error.message();
-        }
-    }
-
-    /// What can be drawn of the view: numbers of objects.
-    std::vector<std::size_t> findDrawn(const ViewState& view) const {
-        std::vector<std::size_t> drawn;
-        for (std::size_t i = 0; i < std::min(staged.size(), view.objects.size()); ++i)
-            if (staged[i].shown && view.objects[i].isShown) drawn.push_back(i);
-        return drawn;
-    }
-
-    std::vector<Affine3d> placeDrawn(const ViewState& view,
-                                     std::span<const std::size_t> drawn) const {
-        std::vector<Bounds> bounds;
-        std::vector<Mat3d> rotations;
-        for (const std::size_t i : drawn) {
-            bounds.push_back(staged[i].shown->scene().bounds());
-            rotations.push_back(cli::rotationFromDegrees(view.objects[i].rotationDegrees));
-        }
-        return placeObjects(bounds, rotations);
-    }
-
-    Bounds boundDrawn(const ViewState& view) const {
-        const std::vector<std::size_t> drawn = findDrawn(view);
-        if (drawn.empty()) return {};
-        const std::vector<Affine3d> places = placeDrawn(view, drawn);
-        Bounds all = moveBounds(places[0], staged[drawn[0]].shown->scene().bounds());
-        for (std::size_t k = 1; k < drawn.size(); ++k)
-            all = uniteBounds(all, moveBounds(places[k], staged[drawn[k]].shown->scene().bounds()));
-        return all;
-    }
+    bool waits() const { return options.awaitedPathsPerPixel.has_value(); }
 
     const std::vector<double>& findDeringing(const Lighting& lighting) const {
-        if (deringingRevision != rig.revision()) deringing.clear();
-        deringingRevision = rig.revision();
-        const auto [found, isNew] = deringing.try_emplace(lighting.bandCount);
+        auto& known = deringing.get(rig, [] { return std::map<int, std::vector<double>>(); });
+        const auto [found, isNew] = known.try_emplace(lighting.bandCount);
         if (isNew) found->second = deringingFactors(lighting);
         return found->second;
     }
@@ -140,16 +114,87 @@ struct Stage::Content {
         sampleCount = samples;
     }
 
-    void prepareBackground() {
-        if (background && backgroundRevision == rig.revision()) return;
-        background.emplace(rig.environment());
-        backgroundRevision = rig.revision();
+    /// The objects of a pane, relit.
+    std::vector<GpuObject> relightObjects(const Stage& stage, const ViewState& view,
+                                          const Side& side) {
+        std::vector<GpuObject> objects;
+        for (const auto& [index, object, worldFromObject] : standing) {
+            const Mat3d objectFromWorld = worldFromObject.linear.transposed();
+            Lighting lighting =
+                stage.lightingOf(view, side.pane, object->asset().transfer.bandCount);
+            if (side.pane.content != PaneContent::coefficient)
+                lighting = rotate(lighting, objectFromWorld);
+            const Vec3f eye(objectFromWorld * (Vec3d(camera.eye) - worldFromObject.translation));
+            objects.push_back({&object->scene(),
+                               &object->relight(side.index, side.pane, lighting, eye),
+                               worldFromObject});
+        }
+        return objects;
     }
 
-    void measureBrightness() {
-        if (brightnessRevision == rig.revision()) return;
-        brightness = cli::chooseExposure(rig.sum());
-        brightnessRevision = rig.revision();
+    GpuMirrors* prepareMirrors(const ViewState& view, std::span<const GpuObject> objects) {
+        const bool areSeen = std::ranges::any_of(
+            objects, [](const GpuObject& object) { return object.radiance->hasMirrors(); });
+        if (!areSeen) return nullptr;
+        showsMirrors = true;
+        if (waits())
+            mirrors.finish(rig.sharedEnvironment());
+        else
+            mirrors.update(rig.sharedEnvironment());
+        if (mirrors.mirrors()) mirrors.mirrors()->turn(worldFromLight(view));
+        return mirrors.mirrors();
+    }
+
+    void drawRelit(const Stage& stage, const ViewState& view, Side& side) {
+        side.drawn = relightObjects(stage, view, side);
+        const bool isLit = side.pane.content == PaneContent::relit;
+        const GpuBackground* behind = nullptr;
+        if (view.showBackground && isLit)
+            behind = &background.get(rig, [&] { return GpuBackground(rig.environment()); });
+        drawGpuView(side.drawn, camera, *target,
+                    {.background = behind,
+                     .worldFromBackground = worldFromLight(view),
+                     .mirrors = isLit ? prepareMirrors(view, side.drawn) : nullptr,
+                     .columns = side.columns,
+                     .wireFrame = view.wireFrame});
+    }
+
+    ReferenceRequest makeRequest(const Stage& stage, const ViewState& view,
+                                 const Side& side) const {
+        ReferenceRequest request{.environment = rig.sharedEnvironment(),
+                                 .worldFromEnvironment = worldFromLight(view),
+                                 .showBackground = view.showBackground,
+                                 .camera = camera,
+                                 .width = target->width(),
+                                 .height = target->height()};
+        for (const StandingObject& object : standing)
+            request.objects.push_back({object.object->sharedAsset(), object.worldFromObject});
+        const Asset& first = standing.front().object->asset();
+        request.model = chooseReferenceModel(first, chooseTransport(side.pane, first.transfer));
+        if (side.pane.bandCount < kMaxBandCount)
+            request.lighting = stage.lightingOf(view, side.pane, kMaxBandCount);
+        return request;
+    }
+
+    void drawReference(const Stage& stage, const ViewState& view, const Side& side) {
+        tracesReference = true;
+        tracer.trace(makeRequest(stage, view, side));
+        reference = waits() ? tracer.finish(*options.awaitedPathsPerPixel) : tracer.picture();
+        if (reference.radiance)
+            target->writeRadiance(*reference.radiance, side.columns);
+        else
+            drawGpuView({}, camera, *target, {.columns = side.columns});
+    }
+
+    /// How a side is shown: false colours are as they are.
+    DisplayOptions displayOptions(const ViewState& view, const Side& side) const {
+        if (side.pane.content == PaneContent::coefficient)
+            return {.exposureStops = 0.0f, .toneCurve = ToneCurve::none};
+        DisplayOptions display = view.display;
+        if (view.autoExposure)
+            display.exposureStops +=
+                brightness.get(rig, [&] { return cli::chooseExposure(rig.sum()); });
+        return display;
     }
 };
 
@@ -157,10 +202,13 @@ Stage::Stage(const StageOptions& options) : content_(std::make_unique<Content>(o
 Stage::~Stage() = default;
 
 void Stage::update(const ViewState& view) {
-    content_->shelf.update(view.objects);
-    content_->rig.update(view.lights);
-    content_->stage(view);
-    content_->measureBrightness();
+    Content& content = *content_;
+    content.shelf.update(view.objects);
+    content.rig.update(view.lights);
+    content.staged.update(view.objects, content.shelf);
+    if (content.showsMirrors && !content.waits())
+        content.mirrors.update(content.rig.sharedEnvironment());
+    if (content.tracesReference && !content.waits()) content.reference = content.tracer.picture();
 }
 
 void Stage::finishLoading(const ViewState& view) {
@@ -177,58 +225,57 @@ const LightRig& Stage::lights() const {
     return content_->rig;
 }
 
-bool Stage::showsAnything() const {
-    return std::any_of(content_->staged.begin(), content_->staged.end(),
-                       [](const StagedObject& object) { return object.shown != nullptr; });
-}
-
 bool Stage::relightsOnCard() const {
     return content_->relighting.onCard;
 }
 
+bool Stage::showsAnything() const {
+    return !content_->staged.all().empty();
+}
+
 std::size_t Stage::vertexCount() const {
     std::size_t count = 0;
-    for (const StagedObject& object : content_->staged)
-        if (object.shown) count += object.asset->scene.vertexCount();
+    for (const ShownObject* object : content_->staged.all())
+        count += object->asset().scene.vertexCount();
     return count;
 }
 
 std::size_t Stage::triangleCount() const {
     std::size_t count = 0;
-    for (const StagedObject& object : content_->staged)
-        if (object.shown) count += object.asset->scene.triangleCount();
+    for (const ShownObject* object : content_->staged.all())
+        count += object->asset().scene.triangleCount();
     return count;
 }
 
 std::vector<std::string> Stage::describeFaults() const {
-    std::vector<std::string> faults;
+    std::vector<std::string> faults = content_->staged.failures();
     const auto collect = [&](std::span<const LoadingStatus> statuses) {
         for (const LoadingStatus& status : statuses)
             if (status.stage == LoadingStatus::Stage::failed) faults.push_back(status.message);
     };
     collect(content_->shelf.statuses());
     collect(content_->rig.statuses());
-    for (const StagedObject& object : content_->staged)
-        if (object.failure) faults.push_back(*object.failure);
+    if (content_->tracesReference && !content_->reference.failure.empty())
+        faults.push_back(content_->reference.failure);
     return faults;
 }
 
 std::optional<Affine3d> Stage::worldFromObject(const ViewState& view, std::size_t object) const {
-    const std::vector<std::size_t> drawn = content_->findDrawn(view);
-    const auto found = std::find(drawn.begin(), drawn.end(), object);
-    if (found == drawn.end()) return std::nullopt;
-    return content_->placeDrawn(view, drawn)[static_cast<std::size_t>(found - drawn.begin())];
+    const std::vector<StandingObject> standing = content_->staged.place(view);
+    const auto found = std::ranges::find(standing, object, &StandingObject::index);
+    return found == standing.end() ? std::nullopt : std::optional(found->worldFromObject);
 }
 
 CameraPose Stage::cameraPose(const ViewState& view, double aspectRatio) const {
     if (view.camera) return *view.camera;
-    const Bounds bounds = content_->boundDrawn(view);
+    const std::vector<StandingObject> standing = content_->staged.place(view);
+    const Bounds bounds = boundObjects(standing);
     Camera camera = frameBounds(bounds, static_cast<float>(aspectRatio));
-    if (content_->staged.size() == 1 && content_->staged[0].asset &&
-        !content_->staged[0].asset->scene.cameras.empty())
-        camera = content_->staged[0].asset->scene.cameras.front();
-    const double distance = Vec3d(bounds.center() - camera.eye).dot(Vec3d(camera.forward));
-    return poseFromCamera(camera, std::max(distance, static_cast<double>(bounds.radius()) * 0.1));
+    if (view.objects.size() == 1 && standing.size() == 1 &&
+        !standing[0].object->asset().scene.cameras.empty())
+        camera = standing[0].object->asset().scene.cameras.front();
+    const auto distance = static_cast<double>((bounds.center() - camera.eye).dot(camera.forward));
+    return poseFromCamera(camera, std::max(distance, 0.1 * static_cast<double>(bounds.radius())));
 }
 
 Lighting Stage::lightingOf(const ViewState& view, const Pane& pane, int mostBands) const {
@@ -238,50 +285,65 @@ Lighting Stage::lightingOf(const ViewState& view, const Pane& pane, int mostBand
     const Lighting used = truncate(content_->rig.sum(), std::clamp(pane.bandCount, 1, mostBands));
     const Lighting calm =
         cli::lowerRinging(used, view.window, [&] { return content_->findDeringing(used); });
-    return rotate(calm, cli::rotationFromDegrees(view.lightRotationDegrees));
+    return rotate(calm, worldFromLight(view));
 }
 
 const GpuTarget& Stage::draw(const ViewState& view, int width, int height, int sampleCount) {
     Content& content = *content_;
     content.prepareTarget(width, height, sampleCount);
-    if (view.showBackground) content.prepareBackground();
-    const Camera camera = makeCamera(cameraPose(view, static_cast<double>(width) / height));
-    const std::vector<std::size_t> drawn = content.findDrawn(view);
-    const std::vector<Affine3d> places = content.placeDrawn(view, drawn);
-    for (const auto& [index, pane, columns] : placePanes(view, width)) {
-        std::vector<GpuObject> objects;
-        for (std::size_t k = 0; k < drawn.size(); ++k) {
-            ShownObject& object = *content.staged[drawn[k]].shown;
-            const Mat3d objectFromWorld = places[k].linear.transposed();
-            Lighting lighting = lightingOf(view, *pane, object.asset().transfer.bandCount);
-            if (pane->content != PaneContent::coefficient)
-                lighting = rotate(lighting, objectFromWorld);
-            const Vec3d eye = objectFromWorld * (Vec3d(camera.eye) - places[k].translation);
-            objects.push_back(
-                {&object.scene(), &object.relight(index, *pane, lighting, Vec3f(eye)), places[k]});
-        }
-        drawGpuView(objects, camera, *content.target,
-                    {.background = view.showBackground && pane->content == PaneContent::relit
-                                       ? &*content.background
-                                       : nullptr,
-                     .worldFromBackground = cli::rotationFromDegrees(view.lightRotationDegrees),
-                     .columns = columns,
-                     .wireFrame = view.wireFrame});
+    content.camera = makeCamera(cameraPose(view, static_cast<double>(width) / height));
+    content.standing = content.staged.place(view);
+    content.sides = placePanes(view, width);
+    content.showsMirrors = false;
+    content.tracesReference = false;
+    for (Side& side : content.sides) {
+        if (side.pane.content == PaneContent::reference && !content.standing.empty())
+            content.drawReference(*this, view, side);
+        else
+            content.drawRelit(*this, view, side);
+    }
+    if (!content.tracesReference) {
+        content.tracer.stop();
+        content.reference = {};
     }
     return *content.target;
 }
 
-void Stage::present(const ViewState& view) const {
-    const Content& content = *content_;
+void Stage::present(const ViewState& view) {
+    Content& content = *content_;
     if (!content.target) return;
-    for (const auto& [index, pane, columns] : placePanes(view, content.target->width())) {
-        DisplayOptions display = view.display;
-        if (view.autoExposure) display.exposureStops += content.brightness;
-        // False colours are shown as they are.
-        if (pane->content == PaneContent::coefficient)
-            display = {.exposureStops = 0.0f, .toneCurve = ToneCurve::none};
-        content.display.draw(*content.target, display, columns);
+    for (const Side& side : content.sides) {
+        content.screen.draw(*content.target, content.displayOptions(view, side), side.columns);
+        if (view.picked && view.showTransferLobe && !side.drawn.empty())
+            content.lobes.drawTransfer(side.index, side.pane, *view.picked, content.standing,
+                                       *content.target, side.drawn, content.camera, side.columns);
     }
+    if (view.showLightLobe)
+        content.lobes.drawLight(lightingOf(view, content.sides[0].pane, kMaxBandCount),
+                                content.camera, content.target->height());
+}
+
+StageRevision Stage::revision() const {
+    const Content& content = *content_;
+    StageRevision revision{.lights = content.rig.revision(), .objects = content.staged.revision()};
+    if (content.showsMirrors) revision.mirrors = content.mirrors.revision();
+    if (content.tracesReference) revision.reference = content.reference.radiance;
+    return revision;
+}
+
+bool Stage::isBusy() const {
+    const Content& content = *content_;
+    const auto isWaiting = [](std::span<const LoadingStatus> statuses) {
+        return std::ranges::find(statuses, LoadingStatus::Stage::waiting, &LoadingStatus::stage) !=
+               statuses.end();
+    };
+    return isWaiting(content.shelf.statuses()) || isWaiting(content.rig.statuses()) ||
+           (content.showsMirrors && content.mirrors.isBusy()) ||
+           (content.tracesReference && content.reference.failure.empty());
+}
+
+const ReferencePicture& Stage::reference() const {
+    return content_->reference;
 }
 
 }  // namespace prt::viewer

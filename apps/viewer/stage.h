@@ -7,6 +7,7 @@
 
 #include "apps/viewer/light_rig.h"
 #include "apps/viewer/object_shelf.h"
+#include "apps/viewer/reference_tracer.h"
 #include "apps/viewer/view_state.h"
 #include "prt/gpu/gpu_target.h"
 #include "prt/scene/scene.h"
@@ -16,9 +17,22 @@ namespace prt::viewer {
 struct StageOptions {
     ImageLimits limits{};
     int threadCount = 0;  ///< 0: one a core
-    /// Whether transfer is relit by OpenGL, or on the CPU; none: by OpenGL unless that runs on the
-    /// CPU too.
+    /// Whether what has been baked is relit by OpenGL, or on the CPU; none: by OpenGL unless that
+    /// runs on the CPU too.
     std::optional<bool> relightsOnCard{};
+    /// draw() waits for prefiltered light, and for so many paths a pixel of a reference; none: it
+    /// shows what there is.
+    std::optional<int> awaitedPathsPerPixel{};
+};
+
+/// How far the work in the background has come that pictures are made of.
+struct StageRevision {
+    std::size_t lights = 0;
+    std::size_t objects = 0;
+    std::size_t mirrors = 0;
+    std::shared_ptr<const Image> reference{};
+
+    bool operator==(const StageRevision&) const = default;
 };
 
 /// Draws views, in a window or without one: all of it on the thread of one OpenGL context.
@@ -35,8 +49,7 @@ class Stage {
 
     const ObjectShelf& objects() const;
     const LightRig& lights() const;
-
-    /// Whether vectors are relit by OpenGL.
+    /// Whether what has been baked is relit by OpenGL.
     bool relightsOnCard() const;
 
     /// Whether an object of the view can be seen; and of all of them.
@@ -64,8 +77,16 @@ class Stage {
     /// @return             until the next call
     const GpuTarget& draw(const ViewState& view, int width, int height, int sampleCount);
 
-    /// Shows what was drawn last over the viewport of the framebuffer that is bound.
-    void present(const ViewState& view) const;
+    /// Shows what was drawn last over the viewport of the framebuffer that is bound, and lobes over
+    /// it.
+    void present(const ViewState& view);
+
+    /// Another one whenever draw() may show the same view otherwise. Asked for after update().
+    StageRevision revision() const;
+    /// Whether work in the background will change it.
+    bool isBusy() const;
+    /// How far the reference of the view that was drawn last has come.
+    const ReferencePicture& reference() const;
 
   private:
     struct Content;

@@ -30,7 +30,8 @@ struct LightChoice {
 enum class PaneContent {
     relit,        ///< the asset in the light
     coefficient,  ///< one coefficient of the transfer, as false colour
-    reference,    ///< path-traced, finer and finer while nothing changes
+    reference,    ///< path-traced, finer and finer while nothing changes; under the light itself,
+                  ///< or, with fewer bands than the most, under these
 };
 
 /// What one side of the picture shows.
