@@ -175,8 +175,10 @@ TEST(ReferenceTracer, WhoTurnsTheViewWithoutAPauseSeesItToo) {
     }
     request.width = 1599;
     tracer.trace(request);
-    const ReferencePicture other = tracer.picture();
-    EXPECT_TRUE(!other.radiance || other.radiance->width == 1599);
+    for (ReferencePicture other; other.pathsPerPixel == 0; std::this_thread::yield()) {
+        other = tracer.picture();
+        ASSERT_TRUE(!other.radiance || other.radiance->width == 1599);
+    }
 }
 
 TEST(ReferenceTracer, TurnsTheEnvironmentAndPlacesObjects) {
