@@ -163,7 +163,7 @@ TEST(ReferenceTracer, BeginsWithACoarsePicture) {
 }
 
 TEST(ReferenceTracer, WhoTurnsTheViewWithoutAPauseSeesItToo) {
-    ReferenceRequest request = makeRequest({{makeBall(Vec3f(0.5f))}}, 1600, 1200);
+    ReferenceRequest request = makeRequest({{makeBall(Vec3f(0.5f))}}, 800, 600);
     ReferenceTracer tracer;
     // Every request is gone long before its first picture could be finished.
     for (int pictureCount = 0; pictureCount < 2;) {
@@ -173,11 +173,11 @@ TEST(ReferenceTracer, WhoTurnsTheViewWithoutAPauseSeesItToo) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         if (tracer.picture().radiance != before) ++pictureCount;
     }
-    request.width = 1599;
+    request.width = 799;
     tracer.trace(request);
     for (ReferencePicture other; other.pathsPerPixel == 0; std::this_thread::yield()) {
         other = tracer.picture();
-        ASSERT_TRUE(!other.radiance || other.radiance->width == 1599);
+        ASSERT_TRUE(!other.radiance || other.radiance->width == 799);
     }
 }
 
