@@ -53,7 +53,7 @@ GlfwWindow::~GlfwWindow() {
 void GlfwWindow::listen() {
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
-        if (action == GLFW_RELEASE) return;
+        if (action != GLFW_PRESS) return;
         static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))
             ->keys_.push_back({.key = key,
                                .shift = (modifiers & GLFW_MOD_SHIFT) != 0,
@@ -100,11 +100,13 @@ double GlfwWindow::secondsSinceStart() const {
     return glfwGetTime();
 }
 
-void GlfwWindow::bindFramebuffer() const {
+void GlfwWindow::beginDrawing() const {
     const auto [width, height] = pixelSize();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
     glDisable(GL_SCISSOR_TEST);
+    glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
 }
 
 void GlfwWindow::swap() const {

@@ -8,7 +8,7 @@ struct GLFWwindow;
 
 namespace prt::viewer {
 
-/// A key that went down, or that repeats.
+/// A key that went down.
 struct KeyPress {
     int key = 0;  ///< as GLFW numbers keys: letters and digits are their capital ASCII
     bool shift = false;
@@ -45,8 +45,8 @@ class GlfwWindow {
     std::vector<KeyPress> takeKeys() { return std::exchange(keys_, {}); }
     std::vector<std::string> takeDroppedFiles() { return std::exchange(droppedFiles_, {}); }
 
-    /// Draws to the window from here on.
-    void bindFramebuffer() const;
+    /// What is drawn from here on comes to the window, in place of all that was there.
+    void beginDrawing() const;
     /// Shows what was drawn.
     void swap() const;
 

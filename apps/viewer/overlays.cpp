@@ -131,11 +131,10 @@ void drawSplitLine(const ViewState& view, const Stage& stage) {
     drawing->AddLine({x, 0.0f}, {x, size.y}, IM_COL32_WHITE, 0.1f * font);
     drawing->AddCircleFilled({x, 0.5f * size.y}, 0.5f * font, IM_COL32_WHITE);
     drawing->AddCircle({x, 0.5f * size.y}, 0.5f * font, IM_COL32(0, 0, 0, 110), 0, 0.1f * font);
-    const float below = size.y - marginPixels();
-    beginTile("left half", {x - marginPixels(), below}, {1.0f, 1.0f});
+    beginTile("left half", {x - marginPixels(), marginPixels()}, {1.0f, 0.0f});
     ImGui::TextUnformatted(describePane(view.left, stage).c_str());
     endTile();
-    beginTile("right half", {x + marginPixels(), below}, {0.0f, 1.0f});
+    beginTile("right half", {x + marginPixels(), marginPixels()}, {0.0f, 0.0f});
     ImGui::TextUnformatted(describePane(*view.right, stage).c_str());
     endTile();
 }

@@ -77,6 +77,18 @@ void drawDisplay(ViewState& view) {
         view.display.toneCurve = static_cast<ToneCurve>(curve);
 }
 
+void drawPicked(ViewState& view) {
+    if (!view.picked) {
+        ImGui::TextDisabled("click a vertex to see its transfer as a lobe");
+        return;
+    }
+    ImGui::Checkbox("lobe of vertex", &view.showTransferLobe);
+    ImGui::SameLine();
+    ImGui::Text("%zu", view.picked->vertex);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Forget")) view.picked.reset();
+}
+
 void drawFile(Desk& desk) {
     ImGui::InputText("view file", &desk.viewFile);
     if (ImGui::Button("Save view")) desk.wantsSave = true;
@@ -98,7 +110,7 @@ void drawPictureSection(ViewState& view, Desk& desk, const Stage& stage) {
     ImGui::Checkbox("background", &view.showBackground);
     ImGui::SameLine();
     ImGui::Checkbox("wire frame", &view.wireFrame);
-    if (view.picked) ImGui::Checkbox("lobe of the picked vertex", &view.showTransferLobe);
+    drawPicked(view);
     if (ImGui::Button("Frame all")) view.camera.reset();
     ImGui::Separator();
     drawFile(desk);

@@ -35,8 +35,11 @@ class Session {
         : window_(options.width, options.height, kTitle, options.script.empty()),
           stage_(options.stage),
           interface_(window_),
-          isRoughWhileMoving_(options.script.empty() && isSoftwareRasteriser()),
-          view_(view) {}
+          isScripted_(!options.script.empty()),
+          isRoughWhileMoving_(!isScripted_ && isSoftwareRasteriser()),
+          view_(view) {
+        desk_.isPanelOpen = options.isPanelOpen;
+    }
 
     ViewState run();
     ViewState runScript(const std::vector<ScriptStep>& script);
@@ -63,6 +66,7 @@ class Session {
     GlfwWindow window_;
     Stage stage_;
     Interface interface_;
+    bool isScripted_;
     bool isRoughWhileMoving_;  ///< one sample a pixel
     Picker picker_;
     LightFolder folder_;
@@ -84,8 +88,10 @@ void Session::attempt(const Work& work) {
     try {
         work();
     } catch (const Error& error) {
+        if (isScripted_) throw;
         desk_.tell(error.message());
     } catch (const std::filesystem::filesystem_error& failure) {
+        if (isScripted_) throw;
         desk_.tell(failure.what());
     }
 }
@@ -209,7 +215,7 @@ void Session::frame(const std::string& picturePath) {
     stage_.update(view_);
     if (wasReading != isReading()) framesToCome_ = 1;
     const bool isNew = drawPicture(width, height);
-    window_.bindFramebuffer();
+    window_.beginDrawing();
     stage_.present(view_);
     doWhatIsWanted(width, height);
     interface_.draw();

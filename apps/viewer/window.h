@@ -11,6 +11,7 @@ namespace prt::viewer {
 struct WindowOptions {
     int width = 1280;
     int height = 720;
+    bool isPanelOpen = false;  ///< from the beginning
     StageOptions stage{};
     /// Done one after the other once all is read, then the window closes; none: a person uses it.
     std::vector<ScriptStep> script{};
