@@ -27,20 +27,11 @@ struct ReadLight {
     Environment environment;  ///< the light itself, lat-long
 };
 
-/// The height of a lat-long image whose texels are about as wide as those in the middle of a map.
-int latLongHeight(const Environment& environment) {
-    const int height = environment.radiance.height;
-    if (environment.map == SphereMap::angularMap) return std::max(1, height / 2);
-    if (environment.map == SphereMap::octahedral) return height;
-    return 2 * height / sphereMapSize(environment.map, 1).height;
-}
-
 BackgroundLoads<ReadLight>::Loaded readLight(const std::string& source, const ImageLimits& limits) {
     cli::LightSource light = cli::loadLight(source, kMaxBandCount, {}, limits);
-    const bool isLatLong = light.environment && light.environment->map == SphereMap::latLong;
-    const int height = light.environment ? latLongHeight(*light.environment) : kDrawnHeight;
-    Environment environment = isLatLong ? std::move(*light.environment)
-                                        : cli::drawLight(light, {}, SphereMap::latLong, height);
+    Environment environment = light.environment
+                                  ? resampleAsLatLong(std::move(*light.environment))
+                                  : cli::drawLight(light, {}, SphereMap::latLong, kDrawnHeight);
     return {{std::move(light.lighting), std::move(environment)},
             cli::describeMending(light.mended).value_or("")};
 }

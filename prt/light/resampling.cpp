@@ -171,6 +171,14 @@ class Resampler {
     std::vector<SpherePlace> places_;  // of the texel being visited
 };
 
+/// With texels as fine as those in the middle of the source's cells.
+int findLatLongHeight(const Environment& source) {
+    const int height = source.radiance.height;
+    if (source.map == SphereMap::angularMap) return std::max(1, height / 2);
+    if (source.map == SphereMap::octahedral) return height;
+    return 2 * height / sphereMapSize(source.map, 1).height;
+}
+
 }  // namespace
 
 Environment rotate(const Environment& source, const Mat3d& rotation, SphereMap map, int width,
@@ -190,6 +198,12 @@ Environment rotate(const Environment& source, const Mat3d& rotation) {
 
 Environment resample(const Environment& source, SphereMap map, int width, int height) {
     return rotate(source, Mat3d(), map, width, height);
+}
+
+Environment resampleAsLatLong(Environment source) {
+    if (source.map == SphereMap::latLong) return source;
+    const int height = findLatLongHeight(source);
+    return resample(source, SphereMap::latLong, 2 * height, height);
 }
 
 }  // namespace prt

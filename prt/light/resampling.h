@@ -17,6 +17,9 @@ namespace prt {
 /// @return               0 where the map shows nothing
 Environment resample(const Environment& source, SphereMap map, int width, int height);
 
+/// The environment as a lat-long map whose texels are about as fine; one that is stays as it is.
+Environment resampleAsLatLong(Environment source);
+
 /// The environment turned as rotate() turns its coefficients, L(R⁻¹ω), and resampled once.
 ///
 /// @param rotation  orthogonal (C9)

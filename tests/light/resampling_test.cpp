@@ -254,5 +254,26 @@ TEST(RotateEnvironment, NoRotationChangesNothing) {
     EXPECT_EQ(rotate(source, Mat3d()).radiance.pixels, source.radiance.pixels);
 }
 
+TEST(ResampleAsLatLong, TexelsAreAsFineAndLightStaysWhereItIs) {
+    constexpr double kTexelVariation = 0.005;
+    const Lighting truth = makeSmoothLighting();
+    for (const Shape& shape : kShapes) {
+        const Environment source = draw(shape, cellSizeFor(shape, 6000), [&](const Vec3d& d) {
+            return Vec3f(reconstruct(truth, d));
+        });
+        const Environment drawn = resampleAsLatLong(source);
+        EXPECT_EQ(drawn.map, SphereMap::latLong);
+        EXPECT_TRUE(shape.map != SphereMap::latLong ||
+                    drawn.radiance.pixels == source.radiance.pixels);
+        EXPECT_LT(maxDifference(projectLighting(drawn, 3), projectLighting(source, 3)),
+                  kTexelVariation)
+            << sphereMapName(shape.map);
+        const double texelRatio = static_cast<double>(drawn.radiance.pixels.size()) /
+                                  static_cast<double>(source.radiance.pixels.size());
+        EXPECT_GE(texelRatio, 0.4) << sphereMapName(shape.map);
+        EXPECT_LE(texelRatio, 2.5) << sphereMapName(shape.map);
+    }
+}
+
 }  // namespace
 }  // namespace prt
