@@ -25,7 +25,8 @@ void GpuBackground::draw(const ViewFrame& view, const Mat3d& worldFromBackground
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
-    setDirection(uniforms::kForward, view.forward);
+    setDirection(uniforms::kForward, view.forward + view.rightward * view.rightwardShift +
+                                         view.upward * view.upwardShift);
     setDirection(uniforms::kRightward, view.rightward);
     setDirection(uniforms::kUpward, view.upward);
     pass_.draw();

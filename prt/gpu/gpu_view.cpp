@@ -26,8 +26,10 @@ void drawObjects(std::span<const GpuObject> objects, const Camera& camera, const
                    "radiance of this scene");
         const Mat3d objectFromWorld = object.worldFromObject.linear.transposed();
         const Vec3f eye(objectFromWorld * (Vec3d(camera.eye) - object.worldFromObject.translation));
-        const ViewFrame objectView{objectFromWorld * view.forward, objectFromWorld * view.rightward,
-                                   objectFromWorld * view.upward};
+        ViewFrame objectView = view;
+        for (Vec3d ViewFrame::*axis :
+             {&ViewFrame::forward, &ViewFrame::rightward, &ViewFrame::upward})
+            objectView.*axis = objectFromWorld * (view.*axis);
         const SurfaceFeatures features{.textures = object.scene->hasTextures(),
                                        .mirrors = mirrors && object.radiance->hasMirrors(),
                                        .lines = lineRadiance > 0.0f};
@@ -58,8 +60,9 @@ void drawWithLines(std::span<const GpuObject> objects, const Camera& camera, con
 void drawGpuView(std::span<const GpuObject> objects, const Camera& camera, const GpuTarget& target,
                  const GpuViewOptions& options) {
     checkFieldOfView(camera.verticalFovRadians);
-    const ViewFrame view =
-        makeViewFrame(camera, static_cast<double>(target.width()) / target.height());
+    ViewFrame view = makeViewFrame(camera, static_cast<double>(target.width()) / target.height());
+    view.rightwardShift = 2.0 * static_cast<double>(options.shiftPixels.x) / target.width();
+    view.upwardShift = 2.0 * static_cast<double>(options.shiftPixels.y) / target.height();
     target.beginDrawing(options.columns, options.background != nullptr);
     glEnable(GL_SAMPLE_SHADING);
     glMinSampleShading(1.0f);

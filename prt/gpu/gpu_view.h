@@ -23,7 +23,8 @@ struct GpuViewOptions {
     const GpuBackground* background = nullptr;  ///< seen where no surface is; black without
     Mat3d worldFromBackground{};                ///< a rotation: L(R⁻¹ω)
     const GpuMirrors* mirrors = nullptr;        ///< what mirror-like surfaces show of the light
-    PixelColumns columns{};      ///< that are drawn; the camera sees the whole width as ever
+    PixelColumns columns{};         ///< that are drawn; the camera sees the whole width as ever
+    Vec2f shiftPixels{0.0f, 0.0f};  ///< how far right and up of its middle a pixel looks
     bool wireFrame = false;      ///< the visible edges of triangles are drawn over their surfaces
     float wireRadiance = 0.18f;  ///< what is brighter gets dark lines, what is darker bright ones
 };

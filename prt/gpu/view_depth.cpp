@@ -18,7 +18,10 @@ constexpr double kDepthMargin = 1e-3;
 
 /// Of the angle from the axis to a corner of the picture.
 double findCornerCosine(const ViewFrame& view) {
-    return 1.0 / std::sqrt(1.0 + view.rightward.length2() + view.upward.length2());
+    const double right = 1.0 + std::abs(view.rightwardShift);
+    const double up = 1.0 + std::abs(view.upwardShift);
+    return 1.0 / std::sqrt(1.0 + right * right * view.rightward.length2() +
+                           up * up * view.upward.length2());
 }
 
 }  // namespace
@@ -46,9 +49,10 @@ std::array<float, 16> makeClipMatrix(const DepthRange& depths, const ViewFrame& 
     const double depthScale = (depths.farthest + depths.nearest) / length;
     const double depthOffset = -2.0 * depths.farthest * depths.nearest / length;
 
-    const std::array<Vec3d, 4> rows = {view.rightward / view.rightward.length2(),
-                                       view.upward / view.upward.length2(),
-                                       view.forward * depthScale, view.forward};
+    const std::array<Vec3d, 4> rows = {
+        view.rightward / view.rightward.length2() - view.forward * view.rightwardShift,
+        view.upward / view.upward.length2() - view.forward * view.upwardShift,
+        view.forward * depthScale, view.forward};
     std::array<float, 16> matrix{};
     for (std::size_t row = 0; row < 4; ++row) {
         for (int column = 0; column < 3; ++column)

@@ -12,6 +12,9 @@ struct ViewFrame {
     Vec3d forward;    ///< unit, to the middle of the picture
     Vec3d rightward;  ///< from there to its right edge
     Vec3d upward;     ///< and to its upper one
+    /// What the picture shows is as far to the right of this, and above, in the same units.
+    double rightwardShift = 0.0;
+    double upwardShift = 0.0;
 };
 
 /// @param aspectRatio  width over height
