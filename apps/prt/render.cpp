@@ -1,6 +1,9 @@
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -8,6 +11,7 @@
 #include "apps/common/light_argument.h"
 #include "apps/common/picture.h"
 #include "apps/common/relit_asset.h"
+#include "apps/common/text.h"
 #include "apps/prt/arguments.h"
 #include "apps/prt/brdf_argument.h"
 #include "apps/prt/commands.h"
@@ -18,6 +22,11 @@
 #include "apps/prt/stage_log.h"
 #include "apps/prt/view_options.h"
 #include "prt/base/file.h"
+#include "prt/gpu/gl_context.h"
+#include "prt/gpu/gpu_picture.h"
+#include "prt/gpu/gpu_relighter.h"
+#include "prt/gpu/gpu_vertex_radiance.h"
+#include "prt/light/resampling.h"
 #include "prt/render/mirror_shading.h"
 #include "prt/render/render_view.h"
 
@@ -35,6 +44,7 @@ struct RenderArguments {
     std::string window = "none";
     DisplayOptions display;
     bool background = false;
+    bool gpu = false;
     ReaderLimits limits;
 };
 
@@ -46,39 +56,100 @@ Lighting prepareLighting(const RenderArguments& arguments, const Asset& asset,
                         [&] { return deringForAsset(asset, arguments.asset, shown, turned); });
 }
 
-Image renderPicture(const RenderArguments& arguments, const Asset& asset, const LightSource& light,
-                    StageLog& log) {
-    const GivenBrdfs brdfs = resolveBrdfs(asset.scene, arguments.brdfs, arguments.asset);
-    const ShownTransport shown = chooseShown(asset, arguments.asset, arguments.transport, brdfs);
-    for (const std::string& sentence : describeLostLobes(asset, shown, brdfs))
-        log.warn(sentence);
-    const Camera camera = chooseCamera(arguments.view, asset.scene, arguments.asset);
-    const Mat3d rotation = rotationFromDegrees(arguments.rotationDegrees);
+/// What is drawn, by rays or by OpenGL.
+struct PreparedView {
+    GivenBrdfs brdfs;
+    ShownTransport shown = ShownTransport::shadowed;
+    Camera camera;
+    Mat3d worldFromLight;
+    Lighting lighting;
+};
 
-    Stopwatch watch;
-    AssetRelighter relighter(asset, arguments.asset, brdfs);
-    const std::vector<ExitRadiance> vertexRadiance =
-        relighter.relight(shown, prepareLighting(arguments, asset, light, shown), camera.eye);
-    log.finishStage(
-        "relight", watch.seconds(),
-        fmt::format("{}, {} bands", shownTransportName(shown), light.lighting.bandCount));
+PreparedView prepareView(const RenderArguments& arguments, const Asset& asset,
+                         const LightSource& light, StageLog& log) {
+    PreparedView view;
+    view.brdfs = resolveBrdfs(asset.scene, arguments.brdfs, arguments.asset);
+    view.shown = chooseShown(asset, arguments.asset, arguments.transport, view.brdfs);
+    for (const std::string& sentence : describeLostLobes(asset, view.shown, view.brdfs))
+        log.warn(sentence);
+    view.camera = chooseCamera(arguments.view, asset.scene, arguments.asset);
+    view.worldFromLight = rotationFromDegrees(arguments.rotationDegrees);
+    view.lighting = prepareLighting(arguments, asset, light, view.shown);
+    return view;
+}
+
+std::string describeRelighting(const PreparedView& view) {
+    return fmt::format("{}, {}", shownTransportName(view.shown),
+                       formatCount(static_cast<std::uint64_t>(view.lighting.bandCount), "band"));
+}
+
+std::vector<ExitRadiance> relightVertices(const RenderArguments& arguments, const Asset& asset,
+                                          const PreparedView& view) {
+    return AssetRelighter(asset, arguments.asset, view.brdfs)
+        .relight(view.shown, view.lighting, view.camera.eye);
+}
+
+MirrorEnvironment prefilter(Environment mirrored, const PreparedView& view, StageLog& log) {
+    const Stopwatch watch;
+    MirrorEnvironment mirrors = makeMirrorEnvironment(std::move(mirrored), view.worldFromLight);
+    log.finishStage("prefilter", watch.seconds(), "the light for mirror-like surfaces");
+    return mirrors;
+}
+
+Image drawByRays(const RenderArguments& arguments, const Asset& asset, const LightSource& light,
+                 const PreparedView& view, StageLog& log) {
+    const Stopwatch watch;
+    const std::vector<ExitRadiance> vertexRadiance = relightVertices(arguments, asset, view);
+    log.finishStage("relight", watch.seconds(), describeRelighting(view));
 
     std::optional<Environment> background;
     if (arguments.background) background = makeBackground(light);
     std::optional<MirrorEnvironment> mirrors;
-    if (hasMirrors(vertexRadiance)) {
-        watch = Stopwatch();
-        mirrors = makeMirrorEnvironment(makeMirroredLight(light), rotation);
-        log.finishStage("prefilter", watch.seconds(), "the light for mirror-like surfaces");
-    }
+    if (hasMirrors(vertexRadiance)) mirrors = prefilter(makeMirroredLight(light), view, log);
     const RayScene rays(asset.scene);
-    return renderView(asset.scene, rays, vertexRadiance, camera,
+    return renderView(asset.scene, rays, vertexRadiance, view.camera,
                       {.width = arguments.view.size.width,
                        .height = arguments.view.size.height,
                        .background = background ? &*background : nullptr,
-                       .worldFromBackground = rotation,
+                       .worldFromBackground = view.worldFromLight,
                        .mirrors = mirrors ? &*mirrors : nullptr,
                        .progress = log.callback()});
+}
+
+/// Vectors are relit by OpenGL; what normals tell, and what depends on the eye, on the CPU.
+std::unique_ptr<GpuRadiance> relightOnCard(const RenderArguments& arguments, const Asset& asset,
+                                           const PreparedView& view) {
+    const CompressedLayer* layer = findShownLayer(asset.transfer, view.shown);
+    if (layer && !isGlossy(view.shown)) {
+        auto relighter = std::make_unique<GpuRelighter>(asset.transfer, layer->transport);
+        relighter->relight(view.lighting);
+        return relighter;
+    }
+    auto uploaded = std::make_unique<GpuVertexRadiance>(asset.scene.vertexCount());
+    uploaded->upload(relightVertices(arguments, asset, view));
+    return uploaded;
+}
+
+/// In the context that is current.
+Image drawByOpenGl(const RenderArguments& arguments, const Asset& asset, const LightSource& light,
+                   const PreparedView& view, StageLog& log) {
+    const GpuScene scene(asset.scene);
+    const Stopwatch watch;
+    const std::unique_ptr<GpuRadiance> radiance = relightOnCard(arguments, asset, view);
+    log.finishStage("relight", watch.seconds(), describeRelighting(view));
+
+    std::optional<GpuBackground> background;
+    if (arguments.background) background.emplace(resampleAsLatLong(makeBackground(light)));
+    std::optional<GpuMirrors> mirrors;
+    if (radiance->hasMirrors())
+        mirrors.emplace(prefilter(resampleAsLatLong(makeMirroredLight(light)), view, log));
+    return drawGpuPicture(std::array{GpuObject{&scene, radiance.get()}}, view.camera,
+                          {.width = arguments.view.size.width,
+                           .height = arguments.view.size.height,
+                           .background = background ? &*background : nullptr,
+                           .worldFromBackground = view.worldFromLight,
+                           .mirrors = mirrors ? &*mirrors : nullptr,
+                           .progress = log.callback()});
 }
 
 void runRender(const RenderArguments& arguments) {
@@ -90,12 +161,19 @@ void runRender(const RenderArguments& arguments) {
     stopIfInterrupted();
 
     StageLog log;
+    std::optional<GlContext> context;
+    if (arguments.gpu) {
+        context.emplace();
+        log.tell("drawn by " + context->description());
+    }
     const ImageLimits limits = arguments.limits.images();
     const Asset asset = readPreparedAsset(arguments.asset, limits, log);
     const LightSource light = loadLight(arguments.light, asset.transfer.bandCount, {}, limits);
     if (const auto mending = describeMending(light.mended))
         log.warn(arguments.light + ": " + *mending);
-    const Image picture = renderPicture(arguments, asset, light, log);
+    const PreparedView view = prepareView(arguments, asset, light, log);
+    const Image picture = arguments.gpu ? drawByOpenGl(arguments, asset, light, view, log)
+                                        : drawByRays(arguments, asset, light, view, log);
 
     const DeferInterrupts whileWriting;
     const Stopwatch watch;
@@ -137,6 +215,7 @@ void addRenderCommand(CLI::App& app) {
     const auto [exposure, tone] = addDisplayOptions(*command, arguments->display, " (.png)");
     command->add_flag("--background", arguments->background,
                       "show the light where no surface is, instead of black");
+    command->add_flag("--gpu", arguments->gpu, "draw by OpenGL 4.3, which needs no display");
     addPixelLimit(*command, arguments->limits);
 
     command->callback([arguments, exposure = exposure, tone = tone] {
