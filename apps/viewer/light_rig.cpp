@@ -11,6 +11,7 @@
 #include "apps/common/light_argument.h"
 #include "apps/viewer/background_loads.h"
 #include "apps/viewer/lat_long_size.h"
+#include "prt/light/resampling.h"
 
 namespace prt::viewer {
 namespace {
