@@ -90,12 +90,6 @@ std::array<float, 16> makeGlobeMatrix(const ViewFrame& view) {
     return matrix;
 }
 
-/// A view along the axes of something that was turned.
-ViewFrame turnView(const ViewFrame& view, const Mat3d& turnedFromWorld) {
-    return {turnedFromWorld * view.forward, turnedFromWorld * view.rightward,
-            turnedFromWorld * view.upward};
-}
-
 void addAttribute(unsigned location, int size, std::size_t offset) {
     glEnableVertexAttribArray(location);
     glVertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, sizeof(LobeVertex),

@@ -26,17 +26,13 @@ void drawObjects(std::span<const GpuObject> objects, const Camera& camera, const
                    "radiance of this scene");
         const Mat3d objectFromWorld = object.worldFromObject.linear.transposed();
         const Vec3f eye(objectFromWorld * (Vec3d(camera.eye) - object.worldFromObject.translation));
-        ViewFrame objectView = view;
-        for (Vec3d ViewFrame::*axis :
-             {&ViewFrame::forward, &ViewFrame::rightward, &ViewFrame::upward})
-            objectView.*axis = objectFromWorld * (view.*axis);
         const SurfaceFeatures features{.textures = object.scene->hasTextures(),
                                        .mirrors = mirrors && object.radiance->hasMirrors(),
                                        .lines = lineRadiance > 0.0f};
         object.radiance->use(features);
         if (features.mirrors) mirrors->use(object.worldFromObject.linear);
         glUniformMatrix4fv(uniforms::kClipFromEyeSpace, 1, GL_FALSE,
-                           makeClipMatrix(depths, objectView).data());
+                           makeClipMatrix(depths, turnView(view, objectFromWorld)).data());
         glUniform3fv(uniforms::kEye, 1, &eye.x);
         if (features.lines) glUniform1f(uniforms::kLineRadiance, lineRadiance);
         object.scene->drawTriangles();

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "prt/math/vector.h"
+#include "prt/math/transform.h"
 #include "prt/scene/scene.h"
 
 namespace prt {
@@ -23,6 +23,12 @@ inline ViewFrame makeViewFrame(const Camera& camera, double aspectRatio) {
     const Vec3d forward(camera.forward);
     const Vec3d up(camera.up);
     return {forward, forward.cross(up) * (halfHeight * aspectRatio), up * halfHeight};
+}
+
+/// A view along the axes of something that was turned.
+inline ViewFrame turnView(const ViewFrame& view, const Mat3d& turnedFromWorld) {
+    return {turnedFromWorld * view.forward, turnedFromWorld * view.rightward,
+            turnedFromWorld * view.upward, view.rightwardShift, view.upwardShift};
 }
 
 }  // namespace prt
