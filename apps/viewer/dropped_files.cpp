@@ -46,7 +46,7 @@ std::string drop(ViewState& view, const std::string& path, const std::string& na
     if (*use == FileUse::object) {
         view.objects.push_back({.asset = path});
         view.camera.reset();
-        return name + " stands with the other objects";
+        return name + " is added to the objects";
     }
     if (!std::exchange(replacesLights, false)) {
         view.lights.push_back({.source = path});

@@ -94,7 +94,7 @@ void drawFrameTile(const Desk& desk) {
 }
 
 void drawHint(const Desk& desk) {
-    if (!desk.showsHint) return;
+    if (!desk.showsHint || !desk.toasts.empty()) return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     beginTile("hint", {0.5f * size.x, size.y - marginPixels()}, {0.5f, 1.0f});
     ImGui::TextUnformatted("Drag turns the view, Ctrl + drag the light, the wheel comes nearer.");

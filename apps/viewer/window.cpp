@@ -27,6 +27,7 @@ constexpr const char* kTitle = "OpenPRT";
 constexpr int kSampleCount = 4;       ///< a pixel
 constexpr double kRestSeconds = 0.6;  ///< without a change, until pictures are fine again
 constexpr double kLeastWaitSeconds = 1e-3;
+constexpr int kFramesAfterEvent = 2;  ///< that panels need to find their size
 
 /// A view in a window, and all that is done to it there.
 class Session {
@@ -105,12 +106,11 @@ ViewState Session::run() {
 }
 
 ViewState Session::runScript(const std::vector<ScriptStep>& script) {
-    constexpr int kFramesToRest = 2;  // that panels need to find their size
     for (const ScriptStep& step : script) {
         view_ = applyPatch(view_, step.patch, "the script");
         stage_.finishLoading(view_);
         window_.waitForEvents(0.0);
-        for (int i = 0; i < kFramesToRest; ++i)
+        for (int i = 0; i < kFramesAfterEvent; ++i)
             frame();
         if (!step.screenshot.empty()) frame(step.screenshot);
         if (window_.isClosing()) break;
@@ -137,7 +137,6 @@ double Session::secondsToWait() const {
 }
 
 void Session::waitForEvents() {
-    constexpr int kFramesAfterEvent = 2;
     const double seconds = secondsToWait();
     const double before = window_.secondsSinceStart();
     window_.waitForEvents(seconds);
@@ -213,7 +212,7 @@ void Session::frame(const std::string& picturePath) {
     layPanels();
     const bool wasReading = isReading();
     stage_.update(view_);
-    if (wasReading != isReading()) framesToCome_ = 1;
+    if (wasReading != isReading()) framesToCome_ = kFramesAfterEvent;
     const bool isNew = drawPicture(width, height);
     window_.beginDrawing();
     stage_.present(view_);
