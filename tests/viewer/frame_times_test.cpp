@@ -22,6 +22,7 @@ TEST(FrameTimes, OldFramesAreForgotten) {
         times.add(time);
     EXPECT_EQ(times.milliseconds(), (std::vector<float>{1.0f, 2.0f, 3.0f}));
     EXPECT_EQ(times.percentile(1.0), 3.0);
+    EXPECT_EQ(times.percentile(0.5), 2.0);  // one of three is not half of them
 }
 
 }  // namespace
