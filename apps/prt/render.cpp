@@ -23,6 +23,7 @@
 #include "apps/prt/view_options.h"
 #include "prt/base/file.h"
 #include "prt/gpu/gl_context.h"
+#include "prt/gpu/gpu_glossy_relighter.h"
 #include "prt/gpu/gpu_picture.h"
 #include "prt/gpu/gpu_relighter.h"
 #include "prt/gpu/gpu_vertex_radiance.h"
@@ -116,11 +117,18 @@ Image drawByRays(const RenderArguments& arguments, const Asset& asset, const Lig
                        .progress = log.callback()});
 }
 
-/// Vectors are relit by OpenGL; what normals tell, and what depends on the eye, on the CPU.
+/// All is relit by OpenGL but what diffuse surfaces show by their normals alone.
 std::unique_ptr<GpuRadiance> relightOnCard(const RenderArguments& arguments, const Asset& asset,
                                            const PreparedView& view) {
-    const CompressedLayer* layer = findShownLayer(asset.transfer, view.shown);
-    if (layer && !isGlossy(view.shown)) {
+    if (isGlossy(view.shown)) {
+        auto relighter = std::make_unique<GpuGlossyRelighter>(
+            AssetRelighter(asset, arguments.asset, view.brdfs)
+                .makeGlossyRelighter<GpuGlossyRelighter>(view.shown));
+        relighter->relight(view.lighting);
+        relighter->lookFrom(view.camera.eye);
+        return relighter;
+    }
+    if (const CompressedLayer* layer = findShownLayer(asset.transfer, view.shown)) {
         auto relighter = std::make_unique<GpuRelighter>(asset.transfer, layer->transport);
         relighter->relight(view.lighting);
         return relighter;
