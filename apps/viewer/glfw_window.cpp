@@ -50,19 +50,39 @@ GlfwWindow::~GlfwWindow() {
     glfwTerminate();
 }
 
+GlfwWindow& GlfwWindow::of(GLFWwindow* window) {
+    return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
+}
+
 void GlfwWindow::listen() {
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
+        of(window).hasHappened_ = true;
         if (action != GLFW_PRESS) return;
-        static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))
-            ->keys_.push_back({.key = key,
-                               .shift = (modifiers & GLFW_MOD_SHIFT) != 0,
-                               .control = (modifiers & GLFW_MOD_CONTROL) != 0});
+        of(window).keys_.push_back({.key = key,
+                                    .shift = (modifiers & GLFW_MOD_SHIFT) != 0,
+                                    .control = (modifiers & GLFW_MOD_CONTROL) != 0});
     });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
-        auto& files = static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))->droppedFiles_;
+        of(window).hasHappened_ = true;
+        auto& files = of(window).droppedFiles_;
         files.insert(files.end(), paths, paths + count);
     });
+    // Of all else it is enough to know that it happened.
+    constexpr auto kTwoNumbers = [](GLFWwindow* window, double, double) {
+        of(window).hasHappened_ = true;
+    };
+    constexpr auto kOneNumber = [](GLFWwindow* window, int) { of(window).hasHappened_ = true; };
+    glfwSetCursorPosCallback(window_, kTwoNumbers);
+    glfwSetScrollCallback(window_, kTwoNumbers);
+    glfwSetCursorEnterCallback(window_, kOneNumber);
+    glfwSetWindowFocusCallback(window_, kOneNumber);
+    glfwSetMouseButtonCallback(
+        window_, [](GLFWwindow* window, int, int, int) { of(window).hasHappened_ = true; });
+    glfwSetFramebufferSizeCallback(
+        window_, [](GLFWwindow* window, int, int) { of(window).hasHappened_ = true; });
+    glfwSetWindowRefreshCallback(window_,
+                                 [](GLFWwindow* window) { of(window).hasHappened_ = true; });
 }
 
 bool GlfwWindow::isClosing() const {
@@ -85,11 +105,12 @@ float GlfwWindow::contentScale() const {
     return std::clamp(std::max(x, y), 1.0f, 4.0f);
 }
 
-void GlfwWindow::waitForEvents(double seconds) {
+bool GlfwWindow::waitForEvents(double seconds) {
     if (seconds > 0.0)
         glfwWaitEventsTimeout(seconds);
     else
         glfwPollEvents();
+    return std::exchange(hasHappened_, false);
 }
 
 bool GlfwWindow::isHeld(int key) const {

@@ -36,8 +36,11 @@ class GlfwWindow {
     /// How large text should be on its screen, 1 for some 96 pixels an inch.
     float contentScale() const;
 
-    /// Returns when something happened, or after so long. @param seconds  0: at once
-    void waitForEvents(double seconds);
+    /// Returns when something happened, or after so long.
+    ///
+    /// @param seconds  0: at once
+    /// @return         whether something happened
+    bool waitForEvents(double seconds);
     bool isHeld(int key) const;
     double secondsSinceStart() const;
 
@@ -52,8 +55,10 @@ class GlfwWindow {
 
   private:
     void listen();
+    static GlfwWindow& of(GLFWwindow* window);
 
     GLFWwindow* window_ = nullptr;
+    bool hasHappened_ = false;  ///< something, since it was last waited for
     std::vector<KeyPress> keys_;
     std::vector<std::string> droppedFiles_;
 };

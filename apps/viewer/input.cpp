@@ -71,7 +71,7 @@ void applyWheel(ViewState& view, double notches, const CameraPose& pose) {
 void applyFlight(ViewState& view, const Flight& flight, double seconds, bool isFast,
                  const CameraPose& pose) {
     if (flight == Flight{}) return;
-    constexpr double kDistancesPerSecond = 0.7;
+    constexpr double kDistancesPerSecond = 0.5;
     const double step = seconds * kDistancesPerSecond * (isFast ? 4.0 : 1.0);
     view.camera = fly(pose, step * flight.forward, step * flight.rightward, step * flight.upward);
 }

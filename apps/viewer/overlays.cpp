@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include "apps/common/text.h"
 #include "apps/viewer/key_bindings.h"
 
 namespace prt::viewer {
@@ -20,11 +21,12 @@ float marginPixels() {
 }
 
 /// A tile with a corner at a place of the picture.
-void beginTile(const char* name, const ImVec2& place, const ImVec2& corner) {
+///
+/// @param width  the most that its text takes, of the picture's
+void beginTile(const char* name, const ImVec2& place, const ImVec2& corner, float width = 0.5f) {
     ImGui::SetNextWindowPos(place, ImGuiCond_Always, corner);
     ImGui::Begin(name, nullptr, kTile);
-    ImGui::PushTextWrapPos(
-        std::min(ImGui::GetFontSize() * 36.0f, ImGui::GetIO().DisplaySize.x * 0.45f));
+    ImGui::PushTextWrapPos(ImGui::GetIO().DisplaySize.x * width);
 }
 
 void endTile() {
@@ -48,8 +50,15 @@ cli::ShownTransport shownTransport(const Pane& pane, const Stage& stage) {
     return cli::ShownTransport::unshadowed;
 }
 
+std::string describeReference(const ReferencePicture& reference) {
+    if (!reference.failure.empty()) return reference.failure;
+    if (reference.pathsPerPixel == 0) return "path-traced";
+    const auto pathCount = static_cast<std::uint64_t>(reference.pathsPerPixel);
+    return "path-traced, " + cli::formatCount(pathCount, "path") + " a pixel";
+}
+
 std::string describePane(const Pane& pane, const Stage& stage) {
-    if (pane.content == PaneContent::reference) return "path-traced reference";
+    if (pane.content == PaneContent::reference) return describeReference(stage.reference());
     if (pane.content == PaneContent::coefficient)
         return "coefficient " + std::to_string(pane.coefficient);
     std::string text(cli::shownTransportName(shownTransport(pane, stage)));
@@ -60,28 +69,22 @@ std::string describePane(const Pane& pane, const Stage& stage) {
 
 }  // namespace
 
-void drawTiles(const Stage& stage) {
-    const std::vector<std::string> faults = stage.describeFaults();
-    const std::size_t waitingCount = countWaiting(stage);
-    if (faults.empty() && waitingCount == 0) return;
-    beginTile("tiles", {marginPixels(), marginPixels()}, {0.0f, 0.0f});
-    for (const std::string& fault : faults) {
-        ImGui::PushStyleColor(ImGuiCol_Text, kFaultColor);
-        ImGui::TextWrapped("%s", fault.c_str());
-        ImGui::PopStyleColor();
-    }
-    if (waitingCount > 0) ImGui::TextDisabled("reading, %zu to go", waitingCount);
-    endTile();
-}
-
-void drawToasts(Desk& desk) {
+void drawMessages(Desk& desk, const Stage& stage) {
+    constexpr float kMessageWidth = 0.28f;  // beside the hint
     std::erase_if(desk.toasts,
                   [&](const Toast& toast) { return toast.endSeconds <= desk.seconds; });
-    if (desk.toasts.empty()) return;
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    beginTile("toasts", {marginPixels(), size.y - marginPixels()}, {0.0f, 1.0f});
+    const std::vector<std::string> faults = stage.describeFaults();
+    const std::size_t waitingCount = countWaiting(stage);
+    if (faults.empty() && waitingCount == 0 && desk.toasts.empty()) return;
+    beginTile("messages", {marginPixels(), ImGui::GetIO().DisplaySize.y - marginPixels()},
+              {0.0f, 1.0f}, kMessageWidth);
+    ImGui::PushStyleColor(ImGuiCol_Text, kFaultColor);
+    for (const std::string& fault : faults)
+        ImGui::TextWrapped("%s", fault.c_str());
+    ImGui::PopStyleColor();
     for (const Toast& toast : desk.toasts)
         ImGui::TextWrapped("%s", toast.text.c_str());
+    if (waitingCount > 0) ImGui::TextDisabled("reading, %zu to go", waitingCount);
     endTile();
 }
 
@@ -94,9 +97,9 @@ void drawFrameTile(const Desk& desk) {
 }
 
 void drawHint(const Desk& desk) {
-    if (!desk.showsHint || !desk.toasts.empty()) return;
+    if (!desk.showsHint) return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    beginTile("hint", {0.5f * size.x, size.y - marginPixels()}, {0.5f, 1.0f});
+    beginTile("hint", {0.5f * size.x, size.y - marginPixels()}, {0.5f, 1.0f}, 1.0f);
     ImGui::TextUnformatted("Drag turns the view, Ctrl + drag the light, the wheel comes nearer.");
     ImGui::TextUnformatted("H tells all keys, Tab opens the panel; drop images and assets here.");
     endTile();

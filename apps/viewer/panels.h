@@ -27,10 +27,8 @@ void drawLightBars(const ViewState& view, const Stage& stage);
 void drawFrameGraph(const Desk& desk);
 void drawFrameTile(const Desk& desk);
 
-/// What could not be read or shown, and what is being read, in a corner.
-void drawTiles(const Stage& stage);
-/// What has just been done.
-void drawToasts(Desk& desk);
+/// What could not be read or shown, what is being read, and what has just been done, in a corner.
+void drawMessages(Desk& desk, const Stage& stage);
 /// Two lines for somebody who has not done anything yet.
 void drawHint(const Desk& desk);
 /// All that mouse and keys do.

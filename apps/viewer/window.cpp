@@ -5,7 +5,6 @@
 #include <span>
 #include <utility>
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include "apps/viewer/desk.h"
@@ -27,7 +26,7 @@ constexpr const char* kTitle = "OpenPRT";
 constexpr int kSampleCount = 4;       ///< a pixel
 constexpr double kRestSeconds = 0.6;  ///< without a change, until pictures are fine again
 constexpr double kLeastWaitSeconds = 1e-3;
-constexpr int kFramesAfterEvent = 2;  ///< that panels need to find their size
+constexpr int kFramesAfterEvent = 3;  ///< that panels need to find their size
 
 /// A view in a window, and all that is done to it there.
 class Session {
@@ -48,7 +47,6 @@ class Session {
   private:
     void waitForEvents();
     double secondsToWait() const;
-    bool isReading() const;
 
     /// @param picturePath  for a picture of the window as it then is; empty for none
     void frame(const std::string& picturePath = {});
@@ -75,8 +73,9 @@ class Session {
     Desk desk_;
 
     const GpuTarget* picture_ = nullptr;
-    std::string drawnView_;  ///< what the picture shows
-    std::string drawnFrom_;  ///< what of it had been read
+    std::string drawnView_;      ///< what the picture shows
+    StageRevision drawnFrom_{};  ///< what it was made of
+    std::pair<int, int> drawnSize_{};
     int sampleCount_ = 0;
     double movedSeconds_ = 0.0;  ///< when the view changed last
     int framesToCome_ = 0;       ///< until panels have come to rest
@@ -118,17 +117,10 @@ ViewState Session::runScript(const std::vector<ScriptStep>& script) {
     return view_;
 }
 
-bool Session::isReading() const {
-    const auto isWaiting = [](std::span<const LoadingStatus> statuses) {
-        return std::ranges::count(statuses, LoadingStatus::Stage::waiting, &LoadingStatus::stage);
-    };
-    return isWaiting(stage_.objects().statuses()) + isWaiting(stage_.lights().statuses()) > 0;
-}
-
 double Session::secondsToWait() const {
-    constexpr double kLongest = 10.0, kWhileReading = 0.05;
+    constexpr double kLongest = 10.0, kWhileBusy = 0.05;
     if (isFlying_ || framesToCome_ > 0 || !picture_) return 0.0;
-    double seconds = isReading() || folder_.isBusy() ? kWhileReading : kLongest;
+    double seconds = stage_.isBusy() || folder_.isBusy() ? kWhileBusy : kLongest;
     for (const Toast& toast : desk_.toasts)
         seconds = std::min(seconds, toast.endSeconds - desk_.seconds);
     if (sampleCount_ < kSampleCount)
@@ -137,11 +129,8 @@ double Session::secondsToWait() const {
 }
 
 void Session::waitForEvents() {
-    const double seconds = secondsToWait();
-    const double before = window_.secondsSinceStart();
-    window_.waitForEvents(seconds);
-    const bool isEvent = window_.secondsSinceStart() - before < seconds;
-    framesToCome_ = isEvent ? kFramesAfterEvent : std::max(framesToCome_ - 1, 0);
+    const bool hasHappened = window_.waitForEvents(secondsToWait());
+    framesToCome_ = hasHappened ? kFramesAfterEvent : std::max(framesToCome_ - 1, 0);
 }
 
 void Session::handleDrops() {
@@ -176,25 +165,25 @@ void Session::fly(double seconds) {
 void Session::layPanels() {
     drawSplitLine(view_, stage_);
     drawPanel(view_, desk_, stage_, folder_);
-    drawTiles(stage_);
+    drawMessages(desk_, stage_);
     drawHint(desk_);
     drawFrameTile(desk_);
-    drawToasts(desk_);
     drawHelp(desk_);
 }
 
 bool Session::drawPicture(int width, int height) {
     std::string view = formatView(view_);
-    std::string from = fmt::format("{}×{}, {}", width, height, stage_.lights().revision());
-    for (const LoadingStatus& status : stage_.objects().statuses())
-        from += status.stage == LoadingStatus::Stage::ready ? '+' : '-';
+    StageRevision from = stage_.revision();
     const bool isMoving = view != drawnView_;
     if (isMoving) movedSeconds_ = desk_.seconds;
     const bool isRough = isRoughWhileMoving_ && desk_.seconds < movedSeconds_ + kRestSeconds;
     const int sampleCount = isRough ? 1 : kSampleCount;
-    if (!isMoving && from == drawnFrom_ && sampleCount == sampleCount_) return false;
+    const std::pair size(width, height);
+    if (!isMoving && from == drawnFrom_ && size == drawnSize_ && sampleCount == sampleCount_)
+        return false;
     drawnView_ = std::move(view);
     drawnFrom_ = std::move(from);
+    drawnSize_ = size;
     sampleCount_ = sampleCount;
     attempt([&] { picture_ = &stage_.draw(view_, width, height, sampleCount); });
     return true;
@@ -210,12 +199,12 @@ void Session::frame(const std::string& picturePath) {
     fly(start - std::exchange(desk_.seconds, start));
     attempt([&] { followMouse(view_, desk_, stage_, picker_); });
     layPanels();
-    const bool wasReading = isReading();
+    const bool wasBusy = stage_.isBusy();
     stage_.update(view_);
-    if (wasReading != isReading()) framesToCome_ = kFramesAfterEvent;
+    if (wasBusy != stage_.isBusy()) framesToCome_ = kFramesAfterEvent;
     const bool isNew = drawPicture(width, height);
     window_.beginDrawing();
-    stage_.present(view_);
+    attempt([&] { stage_.present(view_); });
     doWhatIsWanted(width, height);
     interface_.draw();
     if (!picturePath.empty()) writePng(picturePath, readWindow(width, height));
