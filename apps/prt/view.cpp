@@ -1,3 +1,4 @@
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,9 +18,8 @@
 namespace prt::cli {
 namespace {
 
-/// What an object is seen in where no light is named: a clear day, without the ringing of its sun.
-constexpr const char* kFirstLight = "daylight:150,40";
-constexpr const char* kFirstWindow = "auto";
+/// What an object is seen in where no light is named: a clear day, and a little from below too.
+constexpr std::array kFirstLights = {"daylight:150,40", "uniform:5"};
 
 enum class Relit { automatic, cpu, opengl };
 
@@ -58,10 +58,9 @@ viewer::ViewState makeView(const ViewCommandArguments& arguments) {
     if (!arguments.lights.empty()) view.lights.clear();
     for (const std::string& light : arguments.lights)
         view.lights.push_back({.source = light});
-    if (view.lights.empty()) {
-        view.lights.push_back({.source = kFirstLight});
-        view.window = kFirstWindow;
-    }
+    if (view.lights.empty())
+        for (const char* light : kFirstLights)
+            view.lights.push_back({.source = light});
     if (arguments.transport) view.left.transport = arguments.transport;
     return view;
 }
@@ -126,7 +125,7 @@ void addViewCommand(CLI::App& app) {
     command->add_option("ASSET", arguments->assets, "what prt bake wrote; several share the light");
     command
         ->add_option("--light", arguments->lights,
-                     "a light, as below; again for more, which add up [daylight:150,40]")
+                     "a light, as below; again for more, which add up [a clear day]")
         ->type_name("LIGHT");
     command->add_option("--view", arguments->view, "begin with a view that was saved")
         ->type_name("FILE.json");
