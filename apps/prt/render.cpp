@@ -172,7 +172,7 @@ void runRender(const RenderArguments& arguments) {
     std::optional<GlContext> context;
     if (arguments.gpu) {
         context.emplace();
-        log.tell("drawn by " + context->description());
+        log.tell("drawn by " + describeDriver());
     }
     const ImageLimits limits = arguments.limits.images();
     const Asset asset = readPreparedAsset(arguments.asset, limits, log);

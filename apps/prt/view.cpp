@@ -40,7 +40,7 @@ struct ViewCommandArguments {
     std::string screenshot;
     std::string script;
     int benchmarkFrames = 0;
-    int sampleCount = 4;
+    std::optional<int> sampleCount;
     int referenceSamples = 64;
     Relit relit = Relit::automatic;
     int threadCount = 0;
@@ -72,40 +72,46 @@ std::vector<viewer::ScriptStep> makeScript(const ViewCommandArguments& arguments
     return script;
 }
 
-void runView(const ViewCommandArguments& arguments) {
-    const viewer::ViewState view = makeView(arguments);
-    const std::vector<viewer::ScriptStep> script = makeScript(arguments);
+viewer::StageOptions makeStageOptions(const ViewCommandArguments& arguments, bool takesPictures) {
     viewer::StageOptions stage{.limits = arguments.limits.images(),
                                .threadCount = arguments.threadCount};
-    if (arguments.offscreen || !script.empty())
-        stage.awaitedPathsPerPixel = arguments.referenceSamples;
+    if (takesPictures) stage.awaitedPathsPerPixel = arguments.referenceSamples;
     if (arguments.relit != Relit::automatic)
         stage.relightsOnCard = arguments.relit == Relit::opengl;
-    const viewer::OffscreenOptions offscreen{.width = arguments.size.width,
-                                             .height = arguments.size.height,
-                                             .sampleCount = arguments.sampleCount,
-                                             .stage = stage};
+    return stage;
+}
+
+void viewOffscreen(const ViewCommandArguments& arguments, const viewer::ViewState& view) {
+    const viewer::OffscreenOptions options{.width = arguments.size.width,
+                                           .height = arguments.size.height,
+                                           .sampleCount = arguments.sampleCount,
+                                           .stage = makeStageOptions(arguments, true)};
     if (arguments.benchmarkFrames > 0) {
-        fmt::print("{}", viewer::benchmarkFrames(view, arguments.benchmarkFrames, offscreen));
-        return;
-    }
-    if (!arguments.offscreen) {
-        viewer::runWindow(view, {.width = arguments.size.width,
-                                 .height = arguments.size.height,
-                                 .stage = stage,
-                                 .script = script});
+        fmt::print("{}", viewer::benchmarkOffscreen(view, arguments.benchmarkFrames, options));
         return;
     }
     StageLog log;
-    for (const std::string& fault : viewer::runOffscreen(view, script, offscreen))
+    for (const std::string& fault : viewer::runOffscreen(view, makeScript(arguments), options))
         log.warn(fault);
+}
+
+void viewInWindow(const ViewCommandArguments& arguments, const viewer::ViewState& view) {
+    const std::vector<viewer::ScriptStep> script = makeScript(arguments);
+    const viewer::WindowOptions options{.width = arguments.size.width,
+                                        .height = arguments.size.height,
+                                        .stage = makeStageOptions(arguments, !script.empty()),
+                                        .script = script};
+    if (arguments.benchmarkFrames > 0)
+        fmt::print("{}", viewer::benchmarkWindow(view, arguments.benchmarkFrames, options));
+    else
+        viewer::runWindow(view, options);
 }
 
 constexpr const char* kFooter =
     R"(Examples: prt view statue.prt.glb --light museum.exr
           prt view statue.prt.glb vase.prt.glb --light sky:150,40 --light sun:150,40,0.53
           prt view statue.prt.glb --light museum.exr --offscreen --screenshot statue.png
-          prt view statue.prt.glb --benchmark 200
+          prt view statue.prt.glb --benchmark 200 --offscreen
 
 In the window F1 shows all keys; drag to turn the object, with Ctrl to turn the light, and drop
 assets, images and saved views onto it. A view that was saved there opens again with --view. A
@@ -144,11 +150,14 @@ void addViewCommand(CLI::App& app) {
     script->type_name("SCRIPT.json");
     CLI::Option* benchmark =
         addIntegerOption(*command, "--benchmark", arguments->benchmarkFrames, 1, 1'000'000,
-                         "turn the light for so many frames, offscreen, and print their times");
+                         "turn the light for so many frames, and print their times as JSON");
     benchmark->default_str("");
     benchmark->excludes(screenshot)->excludes(script);
-    addIntegerOption(*command, "--samples", arguments->sampleCount, 1, 64,
-                     "a pixel, of what is drawn offscreen");
+    command
+        ->add_option("--samples", arguments->sampleCount,
+                     "a pixel, without a window [as in one, at rest or moving]")
+        ->check(CLI::Range(1, 64).description(""))
+        ->type_name("N");
     addIntegerOption(*command, "--reference-samples", arguments->referenceSamples, 1, 1 << 20,
                      "paths a pixel of a path-traced pane, in pictures that are written");
     addParsedOption(*command, "--relight", arguments->relit, parseRelit, "auto|cpu|opengl",
@@ -157,10 +166,16 @@ void addViewCommand(CLI::App& app) {
     addIntegerOption(*command, "--threads", arguments->threadCount, 0, 4096, "0 for one a core");
     addPixelLimit(*command, arguments->limits);
 
-    command->callback([arguments, offscreen, screenshot, script] {
-        if (offscreen->count() > 0 && screenshot->count() + script->count() == 0)
-            throw CLI::ValidationError("--offscreen", "needs a --screenshot or a --script to do");
-        runView(*arguments);
+    command->callback([arguments, offscreen, screenshot, script, benchmark] {
+        if (offscreen->count() > 0 &&
+            screenshot->count() + script->count() + benchmark->count() == 0)
+            throw CLI::ValidationError("--offscreen",
+                                       "needs a --screenshot, a --script or a --benchmark to do");
+        const viewer::ViewState view = makeView(*arguments);
+        if (arguments->offscreen)
+            viewOffscreen(*arguments, view);
+        else
+            viewInWindow(*arguments, view);
     });
 }
 

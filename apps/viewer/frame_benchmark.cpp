@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
-#include "prt/base/error.h"
 #include "prt/gpu/gl_context.h"
 
 namespace prt::viewer {
@@ -15,37 +15,6 @@ using nlohmann::ordered_json;
 
 /// How far the light turns from one frame to the next.
 constexpr double kDegreesPerFrame = 3.0;
-
-/// Draws one frame after the other.
-class FrameTimer {
-  public:
-    FrameTimer(Stage& stage, ViewState view, const OffscreenOptions& options)
-        : stage_(stage),
-          view_(std::move(view)),
-          options_(options),
-          screen_(options.width, options.height, 1, TargetFormat::codeValues) {}
-
-    double timeFrame() {
-        const auto start = std::chrono::steady_clock::now();
-        view_.lightRotationDegrees.y =
-            std::remainder(view_.lightRotationDegrees.y + kDegreesPerFrame, 360.0);
-        stage_.update(view_);
-        stage_.draw(view_, options_.width, options_.height, options_.sampleCount);
-        screen_.beginDrawing();
-        stage_.present(view_);
-        screen_.finishDrawing();
-        finishGpuWork();
-        const std::chrono::duration<double, std::milli> elapsed =
-            std::chrono::steady_clock::now() - start;
-        return elapsed.count();
-    }
-
-  private:
-    Stage& stage_;
-    ViewState view_;
-    OffscreenOptions options_;
-    GpuTarget screen_;
-};
 
 ordered_json describeTimes(std::vector<double> milliseconds) {
     std::ranges::sort(milliseconds);
@@ -67,32 +36,64 @@ ordered_json describeTimes(std::vector<double> milliseconds) {
 
 }  // namespace
 
-std::string benchmarkFrames(const ViewState& view, int frameCount,
-                            const OffscreenOptions& options) {
-    const GlContext context;
-    Stage stage(options.stage);
-    stage.finishLoading(view);
-    if (!stage.showsAnything()) throw Error(ErrorCode::malformed, stage.describeFaults().front());
-    FrameTimer timer(stage, view, options);
-    for (int i = 0; i < 1 + frameCount / 10; ++i)
-        timer.timeFrame();
+std::vector<double> timeFrames(ViewState view, int frameCount,
+                               const std::function<void(const ViewState&)>& draw) {
+    const int uncounted = 1 + frameCount / 10;
     std::vector<double> milliseconds;
-    for (int i = 0; i < frameCount; ++i)
-        milliseconds.push_back(timer.timeFrame());
+    for (int i = -uncounted; i < frameCount; ++i) {
+        view.lightRotationDegrees.y =
+            std::remainder(view.lightRotationDegrees.y + kDegreesPerFrame, 360.0);
+        const auto start = std::chrono::steady_clock::now();
+        draw(view);
+        finishGpuWork();
+        const std::chrono::duration<double, std::milli> elapsed =
+            std::chrono::steady_clock::now() - start;
+        if (i >= 0) milliseconds.push_back(elapsed.count());
+    }
+    return milliseconds;
+}
 
+std::string reportFrames(const Stage& stage, const FrameSetting& setting,
+                         std::vector<double> milliseconds) {
+    const std::size_t frameCount = milliseconds.size();
     ordered_json times = describeTimes(std::move(milliseconds));
-    const ordered_json report = {{"renderer", context.description()},
+    const ordered_json report = {{"renderer", setting.renderer},
                                  {"relit_by", stage.relightsOnCard() ? "opengl" : "cpu"},
-                                 {"width", options.width},
-                                 {"height", options.height},
-                                 {"samples_per_pixel", options.sampleCount},
-                                 {"objects", view.objects.size()},
+                                 {"in_window", setting.inWindow},
+                                 {"width", setting.width},
+                                 {"height", setting.height},
+                                 {"samples_per_pixel", setting.sampleCount},
+                                 {"objects", stage.objects().statuses().size()},
                                  {"vertices", stage.vertexCount()},
                                  {"triangles", stage.triangleCount()},
                                  {"frames", frameCount},
                                  {"frames_per_second", 1000.0 / times["mean"].get<double>()},
                                  {"milliseconds", std::move(times)}};
     return report.dump(2) + "\n";
+}
+
+std::string benchmarkOffscreen(const ViewState& view, int frameCount,
+                               const OffscreenOptions& options) {
+    const GlContext context;
+    Stage stage(options.stage);
+    stage.finishLoading(view);
+    stage.requireSomethingToShow();
+    const int sampleCount = options.sampleCount.value_or(movingSampleCount());
+    const GpuTarget screen(options.width, options.height, 1, TargetFormat::codeValues);
+    const std::vector<double> milliseconds =
+        timeFrames(view, frameCount, [&](const ViewState& frame) {
+            stage.update(frame);
+            stage.draw(frame, options.width, options.height, sampleCount);
+            screen.beginDrawing();
+            stage.present(frame);
+            screen.finishDrawing();
+        });
+    return reportFrames(stage,
+                        {.renderer = describeDriver(),
+                         .width = options.width,
+                         .height = options.height,
+                         .sampleCount = sampleCount},
+                        milliseconds);
 }
 
 }  // namespace prt::viewer

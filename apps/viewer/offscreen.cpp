@@ -12,8 +12,8 @@ namespace prt::viewer {
 
 void writeScreenshot(Stage& stage, const ViewState& view, const OffscreenOptions& options,
                      const std::string& path) {
-    const GpuTarget& radiance =
-        stage.draw(view, options.width, options.height, options.sampleCount);
+    const GpuTarget& radiance = stage.draw(view, options.width, options.height,
+                                           options.sampleCount.value_or(kRestingSampleCount));
     if (cli::isExr(path)) {
         cli::writePicture(path, radiance.readRadiance());
         return;
@@ -39,9 +39,7 @@ std::vector<std::string> runOffscreen(const ViewState& view, const std::vector<S
         for (const std::string& fault : stage.describeFaults())
             if (std::find(faults.begin(), faults.end(), fault) == faults.end())
                 faults.push_back(fault);
-        if (!stage.showsAnything())
-            throw Error(ErrorCode::malformed,
-                        faults.empty() ? "there is nothing to show" : faults.front());
+        stage.requireSomethingToShow();
         if (!step.screenshot.empty()) writeScreenshot(stage, current, options, step.screenshot);
     }
     return faults;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace prt::viewer {
 struct OffscreenOptions {
     int width = 1280;
     int height = 720;
-    int sampleCount = 4;  ///< a pixel
+    /// A pixel; none: as the window has them, at rest or moving.
+    std::optional<int> sampleCount{};
     StageOptions stage{.awaitedPathsPerPixel = 64};
 };
 

@@ -12,7 +12,7 @@
 #include "apps/viewer/mirror_light.h"
 #include "apps/viewer/staged_objects.h"
 #include "apps/viewer/view_lobes.h"
-#include "prt/base/assert.h"
+#include "prt/base/error.h"
 #include "prt/gpu/gl_context.h"
 #include "prt/gpu/gpu_background.h"
 #include "prt/gpu/gpu_display.h"
@@ -198,6 +198,10 @@ struct Stage::Content {
     }
 };
 
+int movingSampleCount() {
+    return isSoftwareRasteriser() ? 1 : kRestingSampleCount;
+}
+
 Stage::Stage(const StageOptions& options) : content_(std::make_unique<Content>(options)) {}
 Stage::~Stage() = default;
 
@@ -229,8 +233,10 @@ bool Stage::relightsOnCard() const {
     return content_->relighting.onCard;
 }
 
-bool Stage::showsAnything() const {
-    return !content_->staged.all().empty();
+void Stage::requireSomethingToShow() const {
+    if (!content_->staged.all().empty()) return;
+    const std::vector<std::string> faults = describeFaults();
+    throw Error(ErrorCode::malformed, faults.empty() ? "there is nothing to show" : faults.front());
 }
 
 std::size_t Stage::vertexCount() const {

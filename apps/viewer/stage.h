@@ -25,6 +25,11 @@ struct StageOptions {
     std::optional<int> awaitedPathsPerPixel{};
 };
 
+/// Samples of a pixel: of a picture at rest, and while something moves, for which a rasteriser on
+/// the CPU has no time for more than one. In the context that is current.
+inline constexpr int kRestingSampleCount = 4;
+int movingSampleCount();
+
 /// How far the work in the background has come that pictures are made of.
 struct StageRevision {
     std::size_t lights = 0;
@@ -52,8 +57,9 @@ class Stage {
     /// Whether what has been baked is relit by OpenGL.
     bool relightsOnCard() const;
 
-    /// Whether an object of the view can be seen; and of all of them.
-    bool showsAnything() const;
+    /// @throws Error  malformed if no object of the view can be seen, for the first of the reasons
+    void requireSomethingToShow() const;
+    /// Of all objects.
     std::size_t vertexCount() const;
     std::size_t triangleCount() const;
     /// What of the view cannot be shown, and why; one sentence each.

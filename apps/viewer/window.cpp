@@ -9,6 +9,7 @@
 
 #include "apps/viewer/desk.h"
 #include "apps/viewer/dropped_files.h"
+#include "apps/viewer/frame_benchmark.h"
 #include "apps/viewer/glfw_window.h"
 #include "apps/viewer/interface.h"
 #include "apps/viewer/key_bindings.h"
@@ -23,26 +24,28 @@ namespace prt::viewer {
 namespace {
 
 constexpr const char* kTitle = "OpenPRT";
-constexpr int kSampleCount = 4;       ///< a pixel
 constexpr double kRestSeconds = 0.6;  ///< without a change, until pictures are fine again
 constexpr double kLeastWaitSeconds = 1e-3;
 constexpr int kFramesAfterEvent = 3;  ///< that panels need to find their size
 
+enum class Use { person, script, benchmark };
+
 /// A view in a window, and all that is done to it there.
 class Session {
   public:
-    Session(const ViewState& view, const WindowOptions& options)
-        : window_(options.width, options.height, kTitle, options.script.empty()),
+    Session(const ViewState& view, const WindowOptions& options, Use use)
+        : window_(options.width, options.height, kTitle, use == Use::person),
           stage_(options.stage),
           interface_(window_),
-          isScripted_(!options.script.empty()),
-          isRoughWhileMoving_(!isScripted_ && isSoftwareRasteriser()),
+          isScripted_(use == Use::script),
+          movingSampleCount_(isScripted_ ? kRestingSampleCount : movingSampleCount()),
           view_(view) {
         desk_.isPanelOpen = options.isPanelOpen;
     }
 
     ViewState run();
     ViewState runScript(const std::vector<ScriptStep>& script);
+    std::string runBenchmark(int frameCount);
 
   private:
     void waitForEvents();
@@ -66,7 +69,7 @@ class Session {
     Stage stage_;
     Interface interface_;
     bool isScripted_;
-    bool isRoughWhileMoving_;  ///< one sample a pixel
+    int movingSampleCount_;  ///< a pixel
     Picker picker_;
     LightFolder folder_;
     ViewState view_;
@@ -123,9 +126,28 @@ double Session::secondsToWait() const {
     double seconds = stage_.isBusy() || folder_.isBusy() ? kWhileBusy : kLongest;
     for (const Toast& toast : desk_.toasts)
         seconds = std::min(seconds, toast.endSeconds - desk_.seconds);
-    if (sampleCount_ < kSampleCount)
+    if (sampleCount_ < kRestingSampleCount)
         seconds = std::min(seconds, movedSeconds_ + kRestSeconds - desk_.seconds);
     return std::max(seconds, kLeastWaitSeconds);
+}
+
+std::string Session::runBenchmark(int frameCount) {
+    stage_.finishLoading(view_);
+    stage_.requireSomethingToShow();
+    const std::vector<double> milliseconds =
+        timeFrames(view_, frameCount, [this](const ViewState& view) {
+            view_ = view;
+            window_.waitForEvents(0.0);
+            frame();
+        });
+    const auto [width, height] = window_.pixelSize();
+    return reportFrames(stage_,
+                        {.renderer = describeDriver(),
+                         .inWindow = true,
+                         .width = width,
+                         .height = height,
+                         .sampleCount = sampleCount_},
+                        milliseconds);
 }
 
 void Session::waitForEvents() {
@@ -176,8 +198,8 @@ bool Session::drawPicture(int width, int height) {
     StageRevision from = stage_.revision();
     const bool isMoving = view != drawnView_;
     if (isMoving) movedSeconds_ = desk_.seconds;
-    const bool isRough = isRoughWhileMoving_ && desk_.seconds < movedSeconds_ + kRestSeconds;
-    const int sampleCount = isRough ? 1 : kSampleCount;
+    const bool moves = desk_.seconds < movedSeconds_ + kRestSeconds;
+    const int sampleCount = moves ? movingSampleCount_ : kRestingSampleCount;
     const std::pair size(width, height);
     if (!isMoving && from == drawnFrom_ && size == drawnSize_ && sampleCount == sampleCount_)
         return false;
@@ -238,8 +260,12 @@ void Session::takeScreenshot(int width, int height) {
 }  // namespace
 
 ViewState runWindow(const ViewState& view, const WindowOptions& options) {
-    Session session(view, options);
-    return options.script.empty() ? session.run() : session.runScript(options.script);
+    if (options.script.empty()) return Session(view, options, Use::person).run();
+    return Session(view, options, Use::script).runScript(options.script);
+}
+
+std::string benchmarkWindow(const ViewState& view, int frameCount, const WindowOptions& options) {
+    return Session(view, options, Use::benchmark).runBenchmark(frameCount);
 }
 
 }  // namespace prt::viewer

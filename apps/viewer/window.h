@@ -24,4 +24,10 @@ struct WindowOptions {
 /// @throws Error  unsupported without a display or OpenGL 4.3; as the script's files
 ViewState runWindow(const ViewState& view, const WindowOptions& options);
 
+/// Draws a view in a window whose light turns, as fast as it can.
+///
+/// @return        as reportFrames
+/// @throws Error  as runWindow; malformed if nothing can be shown
+std::string benchmarkWindow(const ViewState& view, int frameCount, const WindowOptions& options);
+
 }  // namespace prt::viewer

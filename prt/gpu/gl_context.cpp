@@ -93,12 +93,7 @@ GlContext::GlContext() {
     if (!epoxy_has_egl()) refuse("there is no EGL library, through which OpenGL is reached");
     for (EGLDisplay display : findDisplays()) {
         handles_ = std::make_unique<Handles>();
-        if (!handles_->open(display)) continue;
-        const auto text = [](GLenum name) {
-            return std::string(reinterpret_cast<const char*>(glGetString(name)));
-        };
-        description_ = text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
-        return;
+        if (handles_->open(display)) return;
     }
     refuse("there is no OpenGL 4.3");
 }
@@ -107,6 +102,13 @@ GlContext::~GlContext() = default;
 
 void GlContext::makeCurrent() const {
     if (!handles_->makeCurrent()) refuse("the driver does not let this thread use its context");
+}
+
+std::string describeDriver() {
+    const auto text = [](GLenum name) {
+        return std::string(reinterpret_cast<const char*>(glGetString(name)));
+    };
+    return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
 }
 
 bool isSoftwareRasteriser() {

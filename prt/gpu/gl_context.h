@@ -22,14 +22,13 @@ class GlContext {
     /// @throws Error  unsupported if the driver refuses
     void makeCurrent() const;
 
-    /// The driver's names of itself and its version.
-    const std::string& description() const { return description_; }
-
   private:
     struct Handles;
     std::unique_ptr<Handles> handles_;
-    std::string description_;
 };
+
+/// The driver's names of itself and its version, in the context that is current.
+std::string describeDriver();
 
 /// Whether what draws in the context that is current runs on the CPU, by the driver's name of
 /// itself: Relighter is faster there than shaders are, and samples of a pixel are dear.

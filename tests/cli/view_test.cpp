@@ -259,7 +259,7 @@ TEST_F(CliView, WhatCannotBeShownIsOneSentence) {
 
 TEST_F(CliView, TheBenchmarkTellsPercentilesOfFrameTimes) {
     const CommandResult result =
-        attempt({"view", "ball.prt.glb", "--benchmark", "10", "--size", kSize});
+        attempt({"view", "ball.prt.glb", "--offscreen", "--benchmark", "10", "--size", kSize});
     ASSERT_EQ(result.exitCode, 0) << result.errors;
     const Json report = Json::parse(result.output);
     EXPECT_EQ(report["frames"], 10);
