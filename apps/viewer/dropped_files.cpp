@@ -1,5 +1,7 @@
 #include "apps/viewer/dropped_files.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -22,14 +24,33 @@ FileUse tellJson(const std::string& path) {
     return text.find("\"coefficients\"") == std::string::npos ? FileUse::view : FileUse::light;
 }
 
+bool isImage(const std::filesystem::path& path) {
+    constexpr std::array kSuffixes = {".exr", ".hdr", ".png", ".jpg", ".jpeg"};
+    return std::ranges::find(kSuffixes, cli::lowerSuffix(path.string())) != kSuffixes.end();
+}
+
+/// A folder with the faces of a cube is a light; of any other the first image by name is, beside
+/// which the panel shows the rest.
+std::string findLight(const std::string& path) {
+    namespace fs = std::filesystem;
+    if (!fs::is_directory(path)) return path;
+    std::vector<std::string> images;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+        const fs::path stem = entry.path().stem();
+        if (stem == "px" || stem == "posx") return path;
+        if (isImage(entry.path())) images.push_back(entry.path().string());
+    }
+    if (images.empty())
+        throw Error(ErrorCode::unsupported, "has no image (.exr .hdr .png .jpg)", path);
+    return *std::ranges::min_element(images);
+}
+
 std::optional<FileUse> tellUse(const std::string& path) {
     if (std::filesystem::is_directory(path)) return FileUse::light;
     const std::string suffix = cli::lowerSuffix(path);
     if (suffix == ".json") return tellJson(path);
     if (suffix == ".glb" || suffix == ".gltf") return FileUse::object;
-    for (const char* image : {".exr", ".hdr", ".png", ".jpg", ".jpeg"})
-        if (suffix == image) return FileUse::light;
-    return std::nullopt;
+    return isImage(path) ? std::optional(FileUse::light) : std::nullopt;
 }
 
 /// @param replacesLights  no longer, once a light has
@@ -48,12 +69,14 @@ std::string drop(ViewState& view, const std::string& path, const std::string& na
         view.camera.reset();
         return name + " is added to the objects";
     }
+    const std::string source = findLight(path);
+    const std::string sourceName = std::filesystem::path(source).filename().string();
     if (!std::exchange(replacesLights, false)) {
-        view.lights.push_back({.source = path});
-        return name + " is added to the light";
+        view.lights.push_back({.source = source});
+        return sourceName + " is added to the light";
     }
-    view.lights = {{.source = path}};
-    return name + " is the light";
+    view.lights = {{.source = source}};
+    return sourceName + " is the light";
 }
 
 }  // namespace

@@ -65,11 +65,27 @@ TEST_F(DroppedFiles, JsonIsAViewOrTheCoefficientsOfALight) {
     EXPECT_TRUE(view_.objects.empty());
 }
 
+TEST_F(DroppedFiles, OfAFolderTheFirstImageIsTheLightUnlessItHasTheFacesOfACube) {
+    file("c.hdr", "");
+    const std::string first = file("b.EXR", "");
+    file("a.txt", "");
+    const std::string folder = folder_.path().string();
+    drop({folder}, true);
+    ASSERT_EQ(view_.lights.size(), 1u);
+    EXPECT_EQ(view_.lights[0].source, first);
+    file("px.png", "");
+    drop({folder}, true);
+    EXPECT_EQ(view_.lights[0].source, folder);
+}
+
 TEST_F(DroppedFiles, OtherFilesAreToldAndChangeNothing) {
     const std::string before = formatView(view_);
-    const std::vector<std::string> told = drop(
-        {"thesis.pdf", "no/such/view.json", file("broken.json", "{]"), file("none", "")}, true);
-    ASSERT_EQ(told.size(), 4u);
+    const std::vector<std::string> told =
+        drop({"thesis.pdf", "no/such/view.json", file("broken.json", "{]"), file("none", ""),
+              folder_.path().string()},
+             true);
+    ASSERT_EQ(told.size(), 5u);
+    EXPECT_NE(told[4].find("has no image"), std::string::npos) << told[4];
     EXPECT_TRUE(told[0].starts_with("thesis.pdf is neither")) << told[0];
     EXPECT_NE(told[1].find("no/such/view.json"), std::string::npos) << told[1];
     EXPECT_NE(told[2].find("broken.json"), std::string::npos) << told[2];
