@@ -37,6 +37,7 @@ struct ViewCommandArguments {
     std::optional<ShownTransport> transport;
     PictureSize size;
     bool offscreen = false;
+    bool panel = false;
     std::string screenshot;
     std::string script;
     int benchmarkFrames = 0;
@@ -99,6 +100,7 @@ void viewInWindow(const ViewCommandArguments& arguments, const viewer::ViewState
     const std::vector<viewer::ScriptStep> script = makeScript(arguments);
     const viewer::WindowOptions options{.width = arguments.size.width,
                                         .height = arguments.size.height,
+                                        .isPanelOpen = arguments.panel,
                                         .stage = makeStageOptions(arguments, !script.empty()),
                                         .script = script};
     if (arguments.benchmarkFrames > 0)
@@ -142,6 +144,7 @@ void addViewCommand(CLI::App& app) {
         ->default_str(fmt::format("{}x{}", arguments->size.width, arguments->size.height));
     CLI::Option* offscreen =
         command->add_flag("--offscreen", arguments->offscreen, "draw without a window");
+    command->add_flag("--panel", arguments->panel, "begin with the window's panel open");
     CLI::Option* screenshot =
         command->add_option("--screenshot", arguments->screenshot, "write a picture, and end");
     screenshot->type_name("OUT.png|exr");
