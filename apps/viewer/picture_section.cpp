@@ -33,8 +33,8 @@ void drawCoefficient(Pane& pane, const Choices& choices) {
 }
 
 void drawPane(const char* title, Pane& pane, const Choices& choices) {
-    static constexpr std::array<const char*, 3> kContents = {
-        "the object, relit", "a coefficient, false colour", "path-traced reference"};
+    static constexpr std::array<const char*, 3> kContents = {"relit", "a coefficient",
+                                                             "path-traced"};
     ImGui::PushID(title);
     int content = static_cast<int>(pane.content);
     if (ImGui::Combo(title, &content, kContents.data(), static_cast<int>(kContents.size())))
