@@ -24,7 +24,8 @@ constexpr const char* kDescription =
   prt scene teapot -o teapot.glb           a scene to begin with; or take your own
   prt bake teapot.glb -o teapot.prt.glb    once: rays become transfer coefficients
   prt render teapot.prt.glb --light sun:60,45,10 -o teapot.png
-                                           as often as you like, under any light)";
+                                           as often as you like, under any light
+  prt view teapot.prt.glb                  in a window: turn the light, and see it at once)";
 
 constexpr const char* kFooter =
     R"(SCENE is a .gltf, .glb, .obj or .ply file. LIGHT is an environment image, uniform:r,g,b,

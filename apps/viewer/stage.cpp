@@ -23,6 +23,9 @@
 namespace prt::viewer {
 namespace {
 
+/// As bright on the screen as it is dark.
+constexpr float kMiddleGrey = 0.18f;
+
 /// A side of the picture: a pane, the columns that it fills, and what was drawn there.
 struct Side {
     std::size_t index = 0;
@@ -156,7 +159,9 @@ struct Stage::Content {
                      .worldFromBackground = worldFromLight(view),
                      .mirrors = isLit ? prepareMirrors(view, side.drawn) : nullptr,
                      .columns = side.columns,
-                     .wireFrame = view.wireFrame});
+                     .wireFrame = view.wireFrame,
+                     .wireRadiance = kMiddleGrey *
+                                     std::exp2(-displayOptions(view, side).exposureStops)});
     }
 
     ReferenceRequest makeRequest(const Stage& stage, const ViewState& view,
@@ -345,7 +350,8 @@ bool Stage::isBusy() const {
     };
     return isWaiting(content.shelf.statuses()) || isWaiting(content.rig.statuses()) ||
            (content.showsMirrors && content.mirrors.isBusy()) ||
-           (content.tracesReference && content.reference.failure.empty());
+           (content.tracesReference && content.reference.failure.empty() &&
+            content.reference.pathsPerPixel < ReferenceTracerOptions().mostPathsPerPixel);
 }
 
 const ReferencePicture& Stage::reference() const {

@@ -23,8 +23,7 @@ class GpuGlossyRelighter final : public GpuRadiance {
     /// In darkness. All as GlossyRelighter has it.
     ///
     /// @throws Error  invalidOption if there is no such layer; limitExceeded for a layer larger
-    /// than
-    ///                the driver lets a shader read; unsupported, outOfMemory
+    ///                than the driver lets a shader read; unsupported, outOfMemory
     GpuGlossyRelighter(const CompressedTransfer& transfer, Transport transport,
                        std::span<const ReceiverSurface> receivers, const GltfViewTable& views,
                        const GlossyRelightOptions& options = {});
