@@ -154,14 +154,14 @@ struct Stage::Content {
         const GpuBackground* behind = nullptr;
         if (view.showBackground && isLit)
             behind = &background.get(rig, [&] { return GpuBackground(rig.environment()); });
-        drawGpuView(side.drawn, camera, *target,
-                    {.background = behind,
-                     .worldFromBackground = worldFromLight(view),
-                     .mirrors = isLit ? prepareMirrors(view, side.drawn) : nullptr,
-                     .columns = side.columns,
-                     .wireFrame = view.wireFrame,
-                     .wireRadiance = kMiddleGrey *
-                                     std::exp2(-displayOptions(view, side).exposureStops)});
+        drawGpuView(
+            side.drawn, camera, *target,
+            {.background = behind,
+             .worldFromBackground = worldFromLight(view),
+             .mirrors = isLit ? prepareMirrors(view, side.drawn) : nullptr,
+             .columns = side.columns,
+             .wireFrame = view.wireFrame,
+             .wireRadiance = kMiddleGrey * std::exp2(-displayOptions(view, side).exposureStops)});
     }
 
     ReferenceRequest makeRequest(const Stage& stage, const ViewState& view,
@@ -239,7 +239,12 @@ bool Stage::relightsOnCard() const {
 }
 
 void Stage::requireSomethingToShow() const {
-    if (!content_->staged.all().empty()) return;
+    const std::span<const LoadingStatus> lights = content_->rig.statuses();
+    const bool isLit =
+        lights.empty() || !std::ranges::all_of(lights, [](const LoadingStatus& light) {
+            return light.stage == LoadingStatus::Stage::failed;
+        });
+    if (isLit && !content_->staged.all().empty()) return;
     const std::vector<std::string> faults = describeFaults();
     throw Error(ErrorCode::malformed, faults.empty() ? "there is nothing to show" : faults.front());
 }

@@ -57,7 +57,8 @@ class Stage {
     /// Whether what has been baked is relit by OpenGL.
     bool relightsOnCard() const;
 
-    /// @throws Error  malformed if no object of the view can be seen, for the first of the reasons
+    /// @throws Error  malformed if no object of the view can be seen, or by none of its lights, for
+    ///                the first of the reasons
     void requireSomethingToShow() const;
     /// Of all objects.
     std::size_t vertexCount() const;

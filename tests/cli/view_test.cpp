@@ -232,6 +232,8 @@ TEST_F(CliView, WhatCannotBeShownIsOneSentence) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> attempts = {
         {{"broken.prt.glb", "--screenshot", "x.png"}, "broken.prt.glb: "},
         {{"missing.prt.glb", "--screenshot", "x.png"}, "missing.prt.glb: "},
+        {{"ball.prt.glb", "--light", "missing.hdr", "--screenshot", "x.png"}, "missing.hdr: "},
+        {{"ball.prt.glb", "--light", "sun:up", "--screenshot", "x.png"}, "sun:up: "},
         {{"ball.prt.glb", "--script", "missing.json", "--screenshot", "x.png"}, "missing.json: "},
         {{"ball.prt.glb", "--script", "unknown.json"}, "'exposure'"},
         {{"ball.prt.glb", "--script", "wrong_value.json"}, "left.bands"},
