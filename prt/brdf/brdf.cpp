@@ -90,7 +90,7 @@ Vec3d sample(const PhongLobe& lobe, const Vec3d& view, double u, double v) {
     const double cosAlpha = std::pow(1.0 - u, 1.0 / (lobe.exponent + 1.0));
     const double sinAlpha = std::sqrt((1.0 - cosAlpha) * (1.0 + cosAlpha));
     const double phi = 2.0 * std::numbers::pi * v;
-    const ViewFrame frame = frameAbout(mirrored(view));
+    const AxisFrame frame = frameAbout(mirrored(view));
     return frame.tangent * (sinAlpha * std::cos(phi)) +
            frame.bitangent * (sinAlpha * std::sin(phi)) + frame.axis * cosAlpha;
 }

@@ -37,7 +37,7 @@ double schlickWeight(double cosTheta) {
     return rest * rest * rest * rest * rest;
 }
 
-ViewFrame frameAbout(const Vec3d& axis) {
+AxisFrame frameAbout(const Vec3d& axis) {
     const double radius = std::hypot(axis.x, axis.y);
     const Vec3d tangent = radius > 0.0 ? Vec3d(-axis.y / radius, axis.x / radius, 0.0)
                                        : Vec3d(0.0, axis.z < 0.0 ? -1.0 : 1.0, 0.0);
@@ -46,7 +46,7 @@ ViewFrame frameAbout(const Vec3d& axis) {
 
 Vec3d sampleVisibleNormal(const Vec3d& view, double alpha, double u, double v) {
     // Stretch the surface until its microfacets are a hemisphere.
-    const ViewFrame frame = frameAbout(Vec3d(alpha * view.x, alpha * view.y, view.z).normalized());
+    const AxisFrame frame = frameAbout(Vec3d(alpha * view.x, alpha * view.y, view.z).normalized());
     // Draw from its projection along the view: half a disc, and a squeezed half.
     const double radius = std::sqrt(u), phi = 2.0 * std::numbers::pi * v;
     const double x = radius * std::cos(phi);

@@ -40,11 +40,11 @@ inline Vec3d halfVector(const Vec3d& incident, const Vec3d& view) {
 
 /// A right-handed frame about a direction whose tangent is horizontal, so that what is spread
 /// evenly in it lies alike on both sides of the plane of the direction and the normal.
-struct ViewFrame {
+struct AxisFrame {
     Vec3d tangent;
     Vec3d bitangent;
     Vec3d axis;
 };
-ViewFrame frameAbout(const Vec3d& axis);
+AxisFrame frameAbout(const Vec3d& axis);
 
 }  // namespace prt
