@@ -1,8 +1,9 @@
 # Holds prt/ to the module list of the top CMakeLists.txt:
 #   cmake -DROOT=<folder that holds prt/> -DLAYERS=<build>/module_layers.txt -P tools/check_layering.cmake
 # A module includes itself and what it USES, by path from the root; headers that others may include leave
-# out *-inl.h, which is not installed; every folder of prt/ is a module. A folder of apps/ includes itself and those that
-# apps/CMakeLists.txt adds before it.
+# out *-inl.h, which is not installed; a source includes its own header first, which shows that the header says all it
+# needs; every folder of prt/ is a module. A folder of apps/ includes itself and those that apps/CMakeLists.txt adds
+# before it.
 cmake_minimum_required(VERSION 3.25)
 
 set(faults "")
@@ -31,6 +32,11 @@ foreach(module IN LISTS modules)
     foreach(source IN LISTS sources)
         cmake_path(GET source PARENT_PATH folder)
         file(STRINGS "${ROOT}/${source}" includes REGEX "^[ \t]*#[ \t]*include")
+        string(REGEX REPLACE "\\.cpp$" ".h" own_header "${source}")
+        if(source MATCHES "\\.cpp$" AND EXISTS "${ROOT}/${own_header}"
+           AND NOT includes MATCHES "^#include \"${own_header}\"(;|$)")
+            list(APPEND faults "${source} does not include ${own_header} first")
+        endif()
         foreach(include IN LISTS includes)
             if(NOT include MATCHES "include[ \t]*[\"<]([^\">]+)[\">]")
                 continue()
