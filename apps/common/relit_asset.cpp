@@ -91,8 +91,12 @@ std::vector<std::string> describeLostLobes(const Asset& asset, ShownTransport sh
 }
 
 AssetRelighter::AssetRelighter(const Asset& asset, std::string path, GivenBrdfs brdfs,
-                               int threadCount)
-    : asset_(asset), path_(std::move(path)), brdfs_(std::move(brdfs)), threadCount_(threadCount) {}
+                               int threadCount, std::shared_ptr<SurfaceTables> tables)
+    : asset_(asset),
+      path_(std::move(path)),
+      brdfs_(std::move(brdfs)),
+      threadCount_(threadCount),
+      tables_(tables ? std::move(tables) : std::make_shared<SurfaceTables>()) {}
 
 AssetRelighter::~AssetRelighter() = default;
 
@@ -138,11 +142,10 @@ const GlossyRelighter& AssetRelighter::glossyRelighter(ShownTransport shown) {
 AssetRelighter::GlossyInputs AssetRelighter::prepareGlossy(ShownTransport shown) {
     if (!isAvailable(asset_.transfer, shown)) throwLacking(shown, path_);
     const int incidentBandCount = findIncidentBandCount(asset_.transfer, shown);
-    if (!views_ || views_->bandCount() != incidentBandCount)
-        views_.emplace(GltfViewTableOptions{.bandCount = incidentBandCount});
     GlossyInputs inputs{
         .layer = shown == ShownTransport::glossy ? Transport::glossy : Transport::glossyShadowed,
-        .options = {.leastRoughness = leastRoughnessHeld(incidentBandCount),
+        .views = tables_->views(incidentBandCount),
+        .options = {.leastRoughness = tables_->leastRoughness(incidentBandCount),
                     .materialTables = makeViewTables(brdfs_, incidentBandCount)}};
     if (shown == ShownTransport::glossyUnshadowed)
         inputs.ofNormals = storeAsFloats(

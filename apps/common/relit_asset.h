@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -7,6 +8,7 @@
 
 #include "apps/common/given_brdfs.h"
 #include "apps/common/shown_transport.h"
+#include "apps/common/surface_tables.h"
 #include "prt/asset/asset.h"
 #include "prt/brdf/brdf.h"
 #include "prt/io/image_io.h"
@@ -39,11 +41,12 @@ std::vector<std::string> describeLostLobes(const Asset& asset, ShownTransport sh
 /// must have been baked.
 class AssetRelighter {
   public:
-    /// @param asset  must outlive this
-    /// @param path   how to call the asset in an error
-    /// @param brdfs  of surfaces as they are
-    AssetRelighter(const Asset& asset, std::string path, GivenBrdfs brdfs = {},
-                   int threadCount = 0);
+    /// @param asset   must outlive this
+    /// @param path    how to call the asset in an error
+    /// @param brdfs   of surfaces as they are
+    /// @param tables  may be shared, by one thread; null: its own
+    AssetRelighter(const Asset& asset, std::string path, GivenBrdfs brdfs = {}, int threadCount = 0,
+                   std::shared_ptr<SurfaceTables> tables = {});
     ~AssetRelighter();
 
     /// What every vertex sends to an eye. Where surfaces are taken for diffuse, perBaseColor is B
@@ -58,11 +61,13 @@ class AssetRelighter {
     const GlossyRelighter& glossyRelighter(ShownTransport shown);
 
     /// What relights one layer of matrices: GlossyRelighter, or what is made as it is.
-    template <class MatrixRelighter>
-    MatrixRelighter makeGlossyRelighter(ShownTransport shown) {
+    ///
+    /// @param more  that its constructor takes at the end
+    template <class MatrixRelighter, class... More>
+    MatrixRelighter makeGlossyRelighter(ShownTransport shown, const More&... more) {
         const GlossyInputs inputs = prepareGlossy(shown);
         return MatrixRelighter(inputs.ofNormals ? *inputs.ofNormals : asset_.transfer, inputs.layer,
-                               inputs.receivers, *views_, inputs.options);
+                               inputs.receivers, inputs.views, inputs.options, more...);
     }
 
   private:
@@ -70,6 +75,7 @@ class AssetRelighter {
         std::optional<CompressedTransfer> ofNormals{};  ///< where the asset has no such layer
         Transport layer{};
         std::vector<ReceiverSurface> receivers{};
+        const GltfViewTable& views;
         GlossyRelightOptions options{};
     };
     GlossyInputs prepareGlossy(ShownTransport shown);
@@ -78,7 +84,7 @@ class AssetRelighter {
     std::string path_;
     GivenBrdfs brdfs_;
     int threadCount_;
-    std::optional<GltfViewTable> views_;
+    std::shared_ptr<SurfaceTables> tables_;
     std::optional<std::pair<ShownTransport, Relighter>> lastOfVectors_;
     std::optional<std::pair<ShownTransport, GlossyRelighter>> lastGlossy_;
 };

@@ -51,14 +51,15 @@ const GpuRadiance& ShownObject::relightOnCard(Relit& relit, ShownTransport shown
     if (!cli::isGlossy(shown)) {
         if (!relit.vectorsOnCard)
             relit.vectorsOnCard.emplace(asset_->transfer,
-                                        cli::findShownLayer(asset_->transfer, shown)->transport);
+                                        cli::findShownLayer(asset_->transfer, shown)->transport,
+                                        options_.programs);
         relit.vectorsOnCard->relight(lighting);
         return *relit.vectorsOnCard;
     }
     const bool isNew = !relit.matricesOnCard;
     if (isNew)
         relit.matricesOnCard.emplace(
-            relighterOf(relit).makeGlossyRelighter<GpuGlossyRelighter>(shown));
+            relighterOf(relit).makeGlossyRelighter<GpuGlossyRelighter>(shown, options_.programs));
     if (isNew || relit.coefficients != lighting.coefficients)
         relit.matricesOnCard->relight(lighting);
     relit.matricesOnCard->lookFrom(eye);
@@ -68,7 +69,7 @@ const GpuRadiance& ShownObject::relightOnCard(Relit& relit, ShownTransport shown
 const GpuRadiance& ShownObject::relightHere(Relit& relit, ShownTransport shown,
                                             const Lighting& lighting, const Vec3f& eye) const {
     cli::AssetRelighter& relighter = relighterOf(relit);
-    if (!relit.uploaded) relit.uploaded.emplace(scene_.vertexCount());
+    if (!relit.uploaded) relit.uploaded.emplace(scene_.vertexCount(), options_.programs);
     if (relit.pane.content == PaneContent::coefficient) {
         relit.uploaded->upload(showSignedRadiance(relighter.relight(shown, lighting, eye)));
     } else if (cli::isGlossy(shown)) {
@@ -89,7 +90,8 @@ const GpuRadiance& ShownObject::relightHere(Relit& relit, ShownTransport shown,
 
 cli::AssetRelighter& ShownObject::relighterOf(Relit& relit) const {
     if (!relit.relighter)
-        relit.relighter.emplace(*asset_, path_, cli::GivenBrdfs(), options_.threadCount);
+        relit.relighter.emplace(*asset_, path_, cli::GivenBrdfs(), options_.threadCount,
+                                options_.tables);
     return *relit.relighter;
 }
 

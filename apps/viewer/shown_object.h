@@ -18,6 +18,9 @@ namespace prt::viewer {
 struct RelightingOptions {
     int threadCount = 0;  ///< 0: one a core
     bool onCard = true;   ///< what has been baked is relit by OpenGL
+    /// What the objects of one context have in common.
+    std::shared_ptr<GpuPrograms> programs = std::make_shared<GpuPrograms>();
+    std::shared_ptr<cli::SurfaceTables> tables = std::make_shared<cli::SurfaceTables>();
 };
 
 /// The layer that a pane shows of an asset: the one that was asked for, or else all there is.

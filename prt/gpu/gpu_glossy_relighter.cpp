@@ -41,17 +41,18 @@ struct GpuGlossyRelighter::Content {
 
     Content(const CompressedTransfer& transfer, const CompressedLayer& layer,
             std::span<const ReceiverSurface> receivers, const GltfViewTable& views,
-            const GlossyRelightOptions& options, const LobeSplit& split)
+            const GlossyRelightOptions& options, const LobeSplit& split,
+            const SharedGpuPrograms& programs)
         : bandCount(transfer.bandCount),
-          lobes(transfer, receivers, views, options.materialTables, split),
-          matrices(transfer, layer),
+          lobes(transfer, receivers, views, options.materialTables, split, programs),
+          matrices(transfer, layer, programs),
           incident(matrices.makeIncident()),
-          radiance(transfer.receiverOfVertex.size()) {
+          radiance(transfer.receiverOfVertex.size(), programs) {
         PRT_ASSERT(receivers.size() == transfer.receiverCount, "one surface a receiver");
         PRT_ASSERT(views.bandCount() == layer.incidentBandCount,
                    "views for the bands of incident radiance");
         if (lobes.hasBounced()) {
-            visibility.emplace(transfer, *split.visibility);
+            visibility.emplace(transfer, *split.visibility, programs);
             direct = visibility->makeIncident();
         }
         if (lobes.hasSplit()) {
@@ -69,10 +70,13 @@ struct GpuGlossyRelighter::Content {
 GpuGlossyRelighter::GpuGlossyRelighter(const CompressedTransfer& transfer, Transport transport,
                                        std::span<const ReceiverSurface> receivers,
                                        const GltfViewTable& views,
-                                       const GlossyRelightOptions& options) {
+                                       const GlossyRelightOptions& options,
+                                       SharedGpuPrograms programs) {
     const CompressedLayer& layer = requireMatrices(transfer, transport);
-    content_ = std::make_unique<Content>(transfer, layer, receivers, views, options,
-                                         chooseSplit(transfer, layer, options.leastRoughness));
+    if (!programs) programs = std::make_shared<GpuPrograms>();
+    content_ =
+        std::make_unique<Content>(transfer, layer, receivers, views, options,
+                                  chooseSplit(transfer, layer, options.leastRoughness), programs);
     relight(Lighting(1));
 }
 

@@ -22,11 +22,12 @@ class GpuGlossyRelighter final : public GpuRadiance {
   public:
     /// In darkness. All as GlossyRelighter has it.
     ///
-    /// @throws Error  invalidOption if there is no such layer; limitExceeded for a layer larger
-    ///                than the driver lets a shader read; unsupported, outOfMemory
+    /// @param programs  may be shared
+    /// @throws Error    invalidOption if there is no such layer; limitExceeded for a layer larger
+    ///                  than the driver lets a shader read; unsupported, outOfMemory
     GpuGlossyRelighter(const CompressedTransfer& transfer, Transport transport,
                        std::span<const ReceiverSurface> receivers, const GltfViewTable& views,
-                       const GlossyRelightOptions& options = {});
+                       const GlossyRelightOptions& options = {}, SharedGpuPrograms programs = {});
     ~GpuGlossyRelighter() override;
     GpuGlossyRelighter(GpuGlossyRelighter&&) noexcept;
     GpuGlossyRelighter& operator=(GpuGlossyRelighter&&) noexcept;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -67,8 +68,10 @@ struct ElementTables {
 GpuLobes::GpuLobes(const CompressedTransfer& transfer, std::span<const ReceiverSurface> receivers,
                    const GltfViewTable& views,
                    std::span<const std::shared_ptr<const BrdfViewTable>> materialTables,
-                   const LobeSplit& split)
-    : vertexCount_(transfer.receiverOfVertex.size()) {
+                   const LobeSplit& split, SharedGpuPrograms programs)
+    : vertexCount_(transfer.receiverOfVertex.size()),
+      receiverCount_(receivers.size()),
+      programs_(std::move(programs)) {
     requireComputed(vertexCount_, receivers.size() * sizeof(Surface));
     const ElementTables tables(views, materialTables);
     const std::size_t levelSize = views.viewCount() * uprightCount(views.bandCount());
@@ -94,24 +97,22 @@ GpuLobes::GpuLobes(const CompressedTransfer& transfer, std::span<const ReceiverS
     }
     hasBounced_ = hasSplit_ && split.hasBounced;
 
-    program_ = linkComputeProgram(findShader("shaders/reflect.comp"),
+    program_ = findComputeProgram(*programs_, findShader("shaders/reflect.comp"),
                                   "#define BAND_COUNT " + std::to_string(views.bandCount()) +
                                       "\n#define SPLIT " + (hasSplit_ ? "1" : "0") +
                                       "\n#define BOUNCED " + (hasBounced_ ? "1" : "0") + "\n");
     const std::vector<double> hemisphere = capZonal(views.bandCount(), 0.5 * std::numbers::pi);
-    const std::vector<float> open(hemisphere.begin(), hemisphere.end());
-    glProgramUniform1ui(program_.get(), uniforms::kReceiverCount,
-                        static_cast<GLuint>(receivers.size()));
-    glProgramUniform1ui(program_.get(), uniforms::kVertexCount, static_cast<GLuint>(vertexCount_));
-    if (hasSplit_)
-        glProgramUniform1fv(program_.get(), uniforms::kOpen, views.bandCount(), open.data());
+    open_.assign(hemisphere.begin(), hemisphere.end());
     surfaces_ = makeBuffer(std::span<const Surface>(surfaces), "materials");
     vertices_ = makeBuffer(std::span(transfer.receiverOfVertex), "materials");
     elements_ = makeBuffer(std::span(tables.elements), "materials");
 }
 
 void GpuLobes::reflect(const Vec3f& eye, const Incident& incident, const GlName& relit) const {
-    glUseProgram(program_.get());
+    glUseProgram(program_);
+    glUniform1ui(uniforms::kReceiverCount, static_cast<GLuint>(receiverCount_));
+    glUniform1ui(uniforms::kVertexCount, static_cast<GLuint>(vertexCount_));
+    if (hasSplit_) glUniform1fv(uniforms::kOpen, static_cast<GLsizei>(open_.size()), open_.data());
     glUniform3f(uniforms::kReflectedEye, eye.x, eye.y, eye.z);
     bindBuffer(buffers::kSurfaces, surfaces_);
     bindBuffer(buffers::kVertices, vertices_);

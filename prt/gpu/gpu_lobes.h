@@ -3,10 +3,11 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "prt/brdf/brdf_view_table.h"
 #include "prt/brdf/gltf_view_table.h"
-#include "prt/gpu/gl_name.h"
+#include "prt/gpu/gpu_programs.h"
 #include "prt/relight/receiver_lobes.h"
 #include "prt/relight/receiver_surface.h"
 #include "prt/transfer/compressed_transfer.h"
@@ -18,12 +19,13 @@ namespace prt {
 class GpuLobes {
   public:
     /// @param materialTables  one a material, null for those that glTF describes; or none
+    /// @param programs        not null
     /// @throws Error          limitExceeded for more vertices than the driver lets a shader have,
     ///                        outOfMemory
     GpuLobes(const CompressedTransfer& transfer, std::span<const ReceiverSurface> receivers,
              const GltfViewTable& views,
              std::span<const std::shared_ptr<const BrdfViewTable>> materialTables,
-             const LobeSplit& split);
+             const LobeSplit& split, SharedGpuPrograms programs);
 
     /// Whether some receivers are split, and show what has bounced apart.
     bool hasSplit() const { return hasSplit_; }
@@ -44,7 +46,10 @@ class GpuLobes {
     std::size_t vertexCount_ = 0;
     bool hasSplit_ = false;
     bool hasBounced_ = false;
-    GlName program_;
+    std::size_t receiverCount_ = 0;
+    std::vector<float> open_;  ///< the hemisphere, in zonal coefficients
+    SharedGpuPrograms programs_;
+    unsigned program_ = 0;
     GlName surfaces_;
     GlName vertices_;
     GlName elements_;

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -26,13 +27,11 @@ std::size_t countRows(const CompressedLayer& layer) {
     return static_cast<std::size_t>(shCoefficientCount(layer.incidentBandCount));
 }
 
-GlName linkFor(const CompressedLayer& layer) {
-    return linkComputeProgram(
-        findShader("shaders/receive.comp"),
-        "#define STORED_BYTES " + std::to_string(bytesPerCoefficient(layer.table.encoding)) +
-            "\n#define CLUSTERED " + (layer.bases ? "1" : "0") + "\n#define CHANNEL_COUNT " +
-            std::to_string(layer.channelCount) + "\n#define COEFFICIENT_COUNT " +
-            std::to_string(countRows(layer)) + "u\n");
+std::string defineFor(const CompressedLayer& layer) {
+    return "#define STORED_BYTES " + std::to_string(bytesPerCoefficient(layer.table.encoding)) +
+           "\n#define CLUSTERED " + (layer.bases ? "1" : "0") + "\n#define CHANNEL_COUNT " +
+           std::to_string(layer.channelCount) + "\n#define COEFFICIENT_COUNT " +
+           std::to_string(countRows(layer)) + "u\n";
 }
 
 }  // namespace
@@ -45,19 +44,23 @@ struct GpuMatrices::Content {
     std::optional<ClusterMatrices> clusters;  ///< what a light is multiplied with on the CPU
     std::size_t productBytes = 0;             ///< of clusters
     std::size_t groupCount = 0;               ///< of what is computed of a receiver
-    GlName program;
+    SharedGpuPrograms programs;
+    unsigned program = 0;
+    std::vector<std::pair<int, std::size_t>> uniformValues;
     GlName transfer;
     GlName rows;   ///< or the first product of each cluster
     GlName light;  ///< or products
 
-    Content(const CompressedTransfer& asset, const CompressedLayer& layer)
+    Content(const CompressedTransfer& asset, const CompressedLayer& layer, SharedGpuPrograms shared)
         : bandCount(asset.bandCount),
           incidentBandCount(layer.incidentBandCount),
-          receiverCount(asset.receiverCount) {
+          receiverCount(asset.receiverCount),
+          programs(std::move(shared)) {
         const CoefficientTable& table = layer.table.numbers;
         requireComputed(receiverCount, gpuTableBytes(table));
         requireComputed(receiverCount, 3 * countRows(layer) * receiverCount * sizeof(float));
-        program = linkFor(layer);
+        program =
+            findComputeProgram(*programs, findShader("shaders/receive.comp"), defineFor(layer));
         setUniform(uniforms::kReceiverCount, receiverCount);
         setUniform(uniforms::kPanelCount, table.panelCount());
         transfer = uploadTable(table);
@@ -67,8 +70,15 @@ struct GpuMatrices::Content {
             addMatrices(layer);
     }
 
-    void setUniform(int location, std::size_t value) const {
-        glProgramUniform1ui(program.get(), location, static_cast<GLuint>(value));
+    /// Others who share the program set their own.
+    void setUniform(int location, std::size_t value) {
+        uniformValues.emplace_back(location, value);
+    }
+
+    void use() const {
+        glUseProgram(program);
+        for (const auto& [location, value] : uniformValues)
+            glUniform1ui(location, static_cast<GLuint>(value));
     }
 
     void addMatrices(const CompressedLayer& layer) {
@@ -111,8 +121,9 @@ struct GpuMatrices::Content {
     }
 };
 
-GpuMatrices::GpuMatrices(const CompressedTransfer& transfer, const CompressedLayer& layer)
-    : content_(std::make_unique<Content>(transfer, layer)) {}
+GpuMatrices::GpuMatrices(const CompressedTransfer& transfer, const CompressedLayer& layer,
+                         SharedGpuPrograms programs)
+    : content_(std::make_unique<Content>(transfer, layer, std::move(programs))) {}
 
 GpuMatrices::~GpuMatrices() = default;
 GpuMatrices::GpuMatrices(GpuMatrices&&) noexcept = default;
@@ -126,7 +137,7 @@ GlName GpuMatrices::makeIncident() const {
 void GpuMatrices::receive(const Lighting& lighting, const GlName& incident) const {
     PRT_ASSERT(lighting.bandCount <= content_->bandCount, "light has no more bands than transfer");
     content_->fold(lighting);
-    glUseProgram(content_->program.get());
+    content_->use();
     bindBuffer(buffers::kTransfer, content_->transfer);
     bindBuffer(buffers::kRows, content_->rows);
     bindBuffer(buffers::kLight, content_->light);

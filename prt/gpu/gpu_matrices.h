@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "prt/gpu/gl_name.h"
+#include "prt/gpu/gpu_programs.h"
 #include "prt/light/lighting.h"
 #include "prt/transfer/compressed_transfer.h"
 
@@ -13,10 +13,12 @@ namespace prt {
 /// stored. With clusters, R_kp = M_kp L is made on the CPU once a light.
 class GpuMatrices {
   public:
-    /// @param layer   of matrices, complete; not needed afterwards
-    /// @throws Error  limitExceeded for a layer larger than the driver lets a shader read,
-    ///                outOfMemory
-    GpuMatrices(const CompressedTransfer& transfer, const CompressedLayer& layer);
+    /// @param layer     of matrices, complete; not needed afterwards
+    /// @param programs  not null
+    /// @throws Error    limitExceeded for a layer larger than the driver lets a shader read,
+    ///                  outOfMemory
+    GpuMatrices(const CompressedTransfer& transfer, const CompressedLayer& layer,
+                SharedGpuPrograms programs);
     ~GpuMatrices();
     GpuMatrices(GpuMatrices&&) noexcept;
     GpuMatrices& operator=(GpuMatrices&&) noexcept;

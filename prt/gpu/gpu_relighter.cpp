@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -66,11 +67,11 @@ struct GpuRelighter::Content {
     GlName receivers;
     GlName light;  ///< or products
 
-    Content(const CompressedTransfer& asset, const CompressedLayer& layer)
+    Content(const CompressedTransfer& asset, const CompressedLayer& layer, SharedGpuPrograms shared)
         : bandCount(asset.bandCount),
           vertexCount(asset.receiverOfVertex.size()),
           encoding(layer.table.encoding),
-          programs(defineFor(layer)),
+          programs(defineFor(layer), std::move(shared)),
           receiverCount(layer.table.numbers.rowCount()) {
         const CoefficientTable& table = layer.table.numbers;
         requireShaderBuffers(gpuTableBytes(table));
@@ -128,8 +129,10 @@ struct GpuRelighter::Content {
     }
 };
 
-GpuRelighter::GpuRelighter(const CompressedTransfer& transfer, Transport transport)
-    : content_(std::make_unique<Content>(transfer, requireVectors(transfer, transport))) {
+GpuRelighter::GpuRelighter(const CompressedTransfer& transfer, Transport transport,
+                           SharedGpuPrograms programs)
+    : content_(std::make_unique<Content>(transfer, requireVectors(transfer, transport),
+                                         std::move(programs))) {
     relight(Lighting(1));
 }
 

@@ -22,10 +22,12 @@ class GpuRelighter final : public GpuRadiance {
     ///
     /// @param transfer   whose layers are as large as its counts say
     /// @param transport  of vectors, a layer that `transfer` has
+    /// @param programs   may be shared
     /// @throws Error     invalidOption if there is no such layer; unsupported for matrices, and
     ///                   where vertex shaders cannot read buffers; limitExceeded for a layer larger
     ///                   than the driver lets a shader read; outOfMemory
-    GpuRelighter(const CompressedTransfer& transfer, Transport transport);
+    GpuRelighter(const CompressedTransfer& transfer, Transport transport,
+                 SharedGpuPrograms programs = {});
     ~GpuRelighter() override;
     GpuRelighter(GpuRelighter&&) noexcept;
     GpuRelighter& operator=(GpuRelighter&&) noexcept;

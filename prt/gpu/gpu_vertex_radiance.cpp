@@ -1,6 +1,7 @@
 #include "prt/gpu/gpu_vertex_radiance.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <epoxy/gl.h>
 
@@ -29,9 +30,10 @@ void writePadded(const GlName& buffer, std::span<const Value> values, const Pad&
 
 }  // namespace
 
-GpuVertexRadiance::GpuVertexRadiance(std::size_t vertexCount)
+GpuVertexRadiance::GpuVertexRadiance(std::size_t vertexCount, SharedGpuPrograms programs)
     : vertexCount_(vertexCount),
-      programs_("#define RELIT 1\n#define CLUSTERED 0\n#define STORED_BYTES 4\n") {
+      programs_("#define RELIT 1\n#define CLUSTERED 0\n#define STORED_BYTES 4\n",
+                std::move(programs)) {
     const std::size_t byteCount = vertexCount * sizeof(PaddedRadiance);
     requireShaderBuffers(byteCount);
     buffer_ = makeBuffer(byteCount, "radiance");

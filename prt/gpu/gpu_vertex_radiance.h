@@ -15,7 +15,7 @@ class GpuVertexRadiance final : public GpuRadiance {
   public:
     /// Black.
     /// @throws Error  as GpuRelighter
-    explicit GpuVertexRadiance(std::size_t vertexCount);
+    explicit GpuVertexRadiance(std::size_t vertexCount, SharedGpuPrograms programs = {});
 
     std::size_t vertexCount() const override { return vertexCount_; }
     void use(const SurfaceFeatures& features) const override;

@@ -95,4 +95,10 @@ GlName linkComputeProgram(const ShaderText& shader, const std::string& definitio
     return program;
 }
 
+unsigned findComputeProgram(GpuPrograms& programs, const ShaderText& shader,
+                            const std::string& definitions) {
+    return programs.find(std::string(shader.name) + "\n" + definitions,
+                         [&] { return linkComputeProgram(shader, definitions); });
+}
+
 }  // namespace prt

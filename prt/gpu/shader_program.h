@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "prt/gpu/gl_name.h"
+#include "prt/gpu/gpu_programs.h"
 
 namespace prt {
 
@@ -27,5 +27,9 @@ GlName linkProgram(const ShaderText& vertexShader, const ShaderText& fragmentSha
 
 /// A program of a compute shader, with the same definitions and errors.
 GlName linkComputeProgram(const ShaderText& shader, const std::string& definitions = {});
+
+/// The same, shared; OpenGL's name.
+unsigned findComputeProgram(GpuPrograms& programs, const ShaderText& shader,
+                            const std::string& definitions);
 
 }  // namespace prt

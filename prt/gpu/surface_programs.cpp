@@ -7,29 +7,39 @@
 namespace prt {
 namespace {
 
-GlName link(const std::string& relighting, const SurfaceFeatures& features) {
-    const ShaderText vertex = findShader("shaders/relight.vert");
-    const ShaderText fragment = findShader("shaders/surface.frag");
-    std::string definitions = relighting;
+std::string define(const SurfaceFeatures& features) {
+    std::string definitions;
     if (features.textures) definitions += "#define TEXTURED\n";
     if (features.lines) definitions += "#define LINED\n";
-    if (!features.mirrors) return linkProgram(vertex, fragment, definitions);
+    if (features.mirrors) definitions += "#define MIRRORED\n";
+    return definitions;
+}
+
+GlName link(const std::string& definitions, bool hasMirrors) {
+    const ShaderText vertex = findShader("shaders/relight.vert");
+    const ShaderText fragment = findShader("shaders/surface.frag");
+    if (!hasMirrors) return linkProgram(vertex, fragment, definitions);
     const std::array called = {findShader("shaders/mirrors.frag"),
                                findShader("shaders/lat_long.frag")};
-    return linkProgram(vertex, fragment, definitions + "#define MIRRORED\n", called);
+    return linkProgram(vertex, fragment, definitions, called);
 }
 
 }  // namespace
 
-SurfacePrograms::SurfacePrograms(std::string definitions) : definitions_(std::move(definitions)) {
+SurfacePrograms::SurfacePrograms(std::string definitions, SharedGpuPrograms programs)
+    : definitions_(std::move(definitions)),
+      programs_(programs ? std::move(programs) : std::make_shared<GpuPrograms>()) {
     find({.textures = false});
 }
 
 unsigned SurfacePrograms::find(const SurfaceFeatures& features) const {
     const std::size_t index = 4u * features.textures + 2u * features.mirrors + 1u * features.lines;
-    GlName& program = programs_[index];
-    if (program.get() == 0) program = link(definitions_, features);
-    return program.get();
+    if (names_[index] == 0) {
+        const std::string definitions = definitions_ + define(features);
+        names_[index] = programs_->find("surface\n" + definitions,
+                                        [&] { return link(definitions, features.mirrors); });
+    }
+    return names_[index];
 }
 
 }  // namespace prt

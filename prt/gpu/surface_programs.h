@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "prt/gpu/gl_name.h"
+#include "prt/gpu/gpu_programs.h"
 
 namespace prt {
 
@@ -19,8 +19,9 @@ struct SurfaceFeatures {
 class SurfacePrograms {
   public:
     /// @param definitions  of relight.vert
+    /// @param programs     may be shared
     /// @throws Error       unsupported, if the driver refuses the plainest
-    explicit SurfacePrograms(std::string definitions);
+    explicit SurfacePrograms(std::string definitions, SharedGpuPrograms programs = {});
 
     /// OpenGL's name of a program, which is linked when it is first asked for.
     ///
@@ -29,7 +30,8 @@ class SurfacePrograms {
 
   private:
     std::string definitions_;
-    mutable std::array<GlName, 8> programs_;  ///< [textures][mirrors][lines]
+    SharedGpuPrograms programs_;
+    mutable std::array<unsigned, 8> names_{};  ///< [textures][mirrors][lines]; 0: not yet found
 };
 
 }  // namespace prt
