@@ -37,7 +37,7 @@ template <std::size_t count>
 using Names = std::array<std::string_view, count>;
 
 constexpr Names<3> kContentNames = {"relit", "coefficient", "reference"};
-constexpr Names<2> kToneNames = {"none", "aces"};
+constexpr Names<3> kToneNames = {"none", "aces", "neutral"};
 constexpr Names<4> kWindowNames = {"none", "hann", "lanczos", "auto"};
 
 /// Puts the fields of a view into JSON.
