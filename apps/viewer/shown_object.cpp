@@ -56,12 +56,15 @@ const GpuRadiance& ShownObject::relightOnCard(Relit& relit, ShownTransport shown
         relit.vectorsOnCard->relight(lighting);
         return *relit.vectorsOnCard;
     }
-    const bool isNew = !relit.matricesOnCard;
-    if (isNew)
+    if (!relit.matricesOnCard) {
+        relit.receivedOnCard.clear();
         relit.matricesOnCard.emplace(
             relighterOf(relit).makeGlossyRelighter<GpuGlossyRelighter>(shown, options_.programs));
-    if (isNew || relit.coefficients != lighting.coefficients)
+    }
+    if (relit.receivedOnCard != lighting.coefficients) {
         relit.matricesOnCard->relight(lighting);
+        relit.receivedOnCard = lighting.coefficients;
+    }
     relit.matricesOnCard->lookFrom(eye);
     return *relit.matricesOnCard;
 }

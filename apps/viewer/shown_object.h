@@ -64,6 +64,7 @@ class ShownObject {
         std::optional<cli::AssetRelighter> relighter;
         std::optional<GpuRelighter> vectorsOnCard;
         std::optional<GpuGlossyRelighter> matricesOnCard;
+        std::vector<Vec3d> receivedOnCard;  ///< the light that matricesOnCard was relit with
         std::optional<GpuVertexRadiance> uploaded;
         std::vector<Vec3f> vertexRadiance;  ///< before it goes to the card, kept for its memory
     };

@@ -36,7 +36,9 @@ struct Side {
 
 std::vector<Side> placePanes(const ViewState& view, int width) {
     if (!view.right) return {{.index = 0, .pane = view.left}};
-    const int split = static_cast<int>(std::lround(view.splitPosition * width));
+    // Written so that what is no number is clamped, too.
+    const double position = std::min(std::max(0.0, view.splitPosition), 1.0);
+    const int split = static_cast<int>(std::lround(position * width));
     return {{.index = 0, .pane = view.left, .columns = {0, split}},
             {.index = 1, .pane = *view.right, .columns = {split, width}}};
 }
@@ -97,7 +99,16 @@ struct Stage::Content {
                      .onCard = given.relightsOnCard.value_or(!isSoftwareRasteriser())},
           shelf(given.limits),
           rig(given.limits),
-          staged(relighting) {}
+          staged(relighting),
+          tracer(tracerOptions(given)) {}
+
+    /// What is awaited is all that is traced, so that a picture has the same bits whenever it is
+    /// asked for.
+    static ReferenceTracerOptions tracerOptions(const StageOptions& given) {
+        ReferenceTracerOptions tracing{.threadCount = given.threadCount};
+        if (given.awaitedPathsPerPixel) tracing.mostPathsPerPixel = *given.awaitedPathsPerPixel;
+        return tracing;
+    }
 
     bool waits() const { return options.awaitedPathsPerPixel.has_value(); }
 
@@ -296,8 +307,8 @@ CameraPose Stage::cameraPose(const ViewState& view, double aspectRatio) const {
 
 Lighting Stage::lightingOf(const ViewState& view, const Pane& pane, int mostBands) const {
     if (pane.content == PaneContent::coefficient)
-        return makeBasisLighting(mostBands,
-                                 std::min(pane.coefficient, shCoefficientCount(mostBands) - 1));
+        return makeBasisLighting(
+            mostBands, std::clamp(pane.coefficient, 0, shCoefficientCount(mostBands) - 1));
     const Lighting used = truncate(content_->rig.sum(), std::clamp(pane.bandCount, 1, mostBands));
     const Lighting calm =
         cli::lowerRinging(used, view.window, [&] { return content_->findDeringing(used); });

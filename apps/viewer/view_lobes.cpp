@@ -22,6 +22,11 @@ Vec3f positionOf(const Scene& scene, std::size_t vertex) {
 
 }  // namespace
 
+bool ViewLobes::Made::operator==(const Made& other) const {
+    return !asset.owner_before(other.asset) && !other.asset.owner_before(asset) &&
+           vertex == other.vertex && shown == other.shown && eye == other.eye;
+}
+
 void ViewLobes::drawLight(const Lighting& lighting, const Camera& camera, int height) {
     if (lighting.coefficients != lightCoefficients_) {
         light_.setFunction(lighting);
@@ -46,7 +51,8 @@ void ViewLobes::drawTransfer(std::size_t paneIndex, const Pane& pane, const Pick
     const Vec3f eye(worldFromObject.linear.transposed() *
                     (Vec3d(camera.eye) - worldFromObject.translation));
     const cli::ShownTransport shown = chooseTransport(pane, asset.transfer);
-    const Made made{&asset, picked.vertex, shown, cli::isGlossy(shown) ? eye : Vec3f(0.0f)};
+    const Made made{object.sharedAsset(), picked.vertex, shown,
+                    cli::isGlossy(shown) ? eye : Vec3f(0.0f)};
     if (made_[paneIndex] != made) {
         const std::optional<Lighting> transfer =
             object.expandVertex(paneIndex, shown, picked.vertex, eye);

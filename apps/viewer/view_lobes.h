@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "apps/viewer/staged_objects.h"
@@ -28,12 +29,12 @@ class ViewLobes {
   private:
     /// What a lobe was made of.
     struct Made {
-        const Asset* asset = nullptr;
+        std::weak_ptr<const Asset> asset{};  ///< another may come to stand at its address
         std::size_t vertex = 0;
         cli::ShownTransport shown{};
         Vec3f eye{0.0f, 0.0f, 0.0f};
 
-        bool operator==(const Made&) const = default;
+        bool operator==(const Made& other) const;
     };
 
     std::vector<Vec3d> lightCoefficients_;
