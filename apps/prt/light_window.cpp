@@ -31,7 +31,8 @@ std::vector<double> deringFor(const std::string& nonNegative, const Lighting& li
 
 void addWindowOption(CLI::App& command, std::string& window, const std::string& help) {
     command.add_option("--window", window, help)
-        ->check(CLI::IsMember({"auto", "none", "hann", "lanczos"}).description(""))
+        ->check(CLI::IsMember(std::vector<std::string>(kWindowNames.begin(), kWindowNames.end()))
+                    .description(""))
         ->type_name("auto|none|hann|lanczos")
         ->capture_default_str();
 }

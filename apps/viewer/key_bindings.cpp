@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+
+#include "apps/common/ringing.h"
 
 namespace prt::viewer {
 namespace {
@@ -93,8 +96,7 @@ void toggleReference(const Work& work) {
 }
 
 void stepWindow(const Work& work) {
-    static const std::array<std::string, 4> kWindows = {"none", "hann", "lanczos", "auto"};
-    work.view.window = step(kWindows, work.view.window, false);
+    work.view.window = step(cli::kWindowNames, std::string_view(work.view.window), false);
     work.desk.tell("window: " + work.view.window);
 }
 

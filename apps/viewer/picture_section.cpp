@@ -8,6 +8,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "apps/common/ringing.h"
+
 namespace prt::viewer {
 namespace {
 
@@ -60,10 +62,9 @@ void drawSplit(ViewState& view) {
 }
 
 void drawWindow(ViewState& view) {
-    static constexpr std::array<const char*, 4> kWindows = {"none", "hann", "lanczos", "auto"};
     if (!ImGui::BeginCombo("window", view.window.c_str())) return;
-    for (const char* window : kWindows)
-        if (ImGui::Selectable(window, view.window == window)) view.window = window;
+    for (const std::string_view window : cli::kWindowNames)
+        if (ImGui::Selectable(window.data(), view.window == window)) view.window = window;
     ImGui::EndCombo();
 }
 

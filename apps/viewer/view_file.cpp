@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/common/ringing.h"
 #include "prt/base/error.h"
 #include "prt/base/file.h"
 
@@ -37,8 +38,6 @@ template <std::size_t count>
 using Names = std::array<std::string_view, count>;
 
 constexpr Names<3> kContentNames = {"relit", "coefficient", "reference"};
-constexpr Names<3> kToneNames = {"none", "aces", "neutral"};
-constexpr Names<4> kWindowNames = {"none", "hann", "lanczos", "auto"};
 
 /// Puts the fields of a view into JSON.
 class Writer {
@@ -64,6 +63,7 @@ class Writer {
     static json write(std::string& value) { return value; }
     static json write(Vec3d& value) { return {value.x, value.y, value.z}; }
     static json write(cli::ShownTransport value) { return cli::shownTransportName(value); }
+    static json write(ToneCurve value) { return toneCurveName(value); }
     template <class Value>
     static json write(std::optional<Value>& value) {
         return value ? write(*value) : json();
@@ -176,13 +176,17 @@ class Reader {
             Reader(object_[static_cast<std::size_t>(axis)], where_, place_, Range{})
                 .read(value[axis]);
     }
-    void read(cli::ShownTransport& value) const {
-        const auto shown = object_.is_string()
-                               ? cli::parseShownTransport(object_.get<std::string>())
-                               : std::nullopt;
-        if (!shown) fail(std::string("one of ") + cli::kShownTransportForms);
-        value = *shown;
+    /// @param parse  turns a text into an optional value
+    template <class Value, class Parse>
+    void readNamed(Value& value, const Parse& parse, const char* forms) const {
+        const auto parsed = object_.is_string() ? parse(object_.get<std::string>()) : std::nullopt;
+        if (!parsed) fail(std::string("one of ") + forms);
+        value = *parsed;
     }
+    void read(cli::ShownTransport& value) const {
+        readNamed(value, cli::parseShownTransport, cli::kShownTransportForms);
+    }
+    void read(ToneCurve& value) const { readNamed(value, parseToneCurve, "none|aces|neutral"); }
     template <class Value>
     void read(std::optional<Value>& value) const {
         if (object_.is_null()) {
@@ -254,14 +258,14 @@ void describe(Fields& fields, ViewState& view) {
     fields.field("objects", view.objects);
     fields.field("lights", view.lights);
     fields.field("light_rotation_degrees", view.lightRotationDegrees);
-    fields.word("window", view.window, kWindowNames);
+    fields.word("window", view.window, cli::kWindowNames);
     fields.field("camera", view.camera);
     fields.field("left", view.left);
     fields.field("right", view.right);
     fields.field("split_position", view.splitPosition, {0.0, 1.0});
     fields.field("auto_exposure", view.autoExposure);
     fields.field("exposure_stops", view.display.exposureStops, kStops);
-    fields.choice("tone", view.display.toneCurve, kToneNames);
+    fields.field("tone", view.display.toneCurve);
     fields.field("background", view.showBackground);
     fields.field("wire_frame", view.wireFrame);
     fields.field("light_lobe", view.showLightLobe);
