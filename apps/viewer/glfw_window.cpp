@@ -93,6 +93,10 @@ void GlfwWindow::close() {
     glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
+void GlfwWindow::hide() {
+    glfwHideWindow(window_);
+}
+
 std::pair<int, int> GlfwWindow::pixelSize() const {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);

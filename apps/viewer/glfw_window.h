@@ -30,6 +30,7 @@ class GlfwWindow {
 
     bool isClosing() const;
     void close();
+    void hide();
 
     /// Width and height of what is drawn; 0 while the window is an icon.
     std::pair<int, int> pixelSize() const;

@@ -193,8 +193,8 @@ struct Stage::Content {
     }
 
     void drawReference(const Stage& stage, const ViewState& view, const Side& side) {
-        tracesReference = true;
-        tracer.trace(makeRequest(stage, view, side));
+        // One is traced at a time: where both sides show it, that of the left.
+        if (!std::exchange(tracesReference, true)) tracer.trace(makeRequest(stage, view, side));
         reference = waits() ? tracer.finish(*options.awaitedPathsPerPixel) : tracer.picture();
         if (reference.radiance)
             target->writeRadiance(*reference.radiance, side.columns);

@@ -31,7 +31,7 @@ enum class PaneContent {
     relit,        ///< the asset in the light
     coefficient,  ///< one coefficient of the transfer, as false colour
     reference,    ///< path-traced, finer and finer while nothing changes; under the light itself,
-                  ///< or, with fewer bands than the most, under these
+                  ///< or, with fewer bands than the most, under these; one at a time, the left's
 };
 
 /// What one side of the picture shows.

@@ -104,6 +104,7 @@ ViewState Session::run() {
         waitForEvents();
         frame();
     }
+    window_.hide();  // what is being read or prefiltered is waited for
     return view_;
 }
 
