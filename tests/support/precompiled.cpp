@@ -1,0 +1,1 @@
+// What compiles the header that the tests share (tests/CMakeLists.txt).
