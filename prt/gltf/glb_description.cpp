@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 
 // Behind the binary chunk, which is the first.
 constexpr int kFallbackBuffer = 1;
+constexpr const char* kUnlitExtension = "KHR_materials_unlit";
 // A near plane that keeps the depth buffer useful: this fraction of the scene's size.
 constexpr double kNearPerSceneRadius = 1e-3;
 
@@ -100,8 +101,12 @@ const char* elementType(int componentCount) {
 class GlbDescription {
   public:
     GlbDescription(const Scene& scene, const GlbExtension* extension, const GlbLayout& layout,
-                   const GlbStorage& storage)
-        : scene_(scene), extension_(extension), layout_(layout), storage_(storage) {}
+                   const GlbStorage& storage, const GlbOptions& options)
+        : scene_(scene),
+          extension_(extension),
+          layout_(layout),
+          storage_(storage),
+          options_(options) {}
 
     std::string dump() {
         Json root;
@@ -189,6 +194,10 @@ class GlbDescription {
             object["alphaMode"] = "BLEND";
         }
         if (material.doubleSided) object["doubleSided"] = true;
+        if (options_.unlit) {
+            useExtension(kUnlitExtension);
+            object["extensions"][kUnlitExtension] = Json::object();
+        }
         return object;
     }
 
@@ -358,6 +367,7 @@ class GlbDescription {
     const GlbExtension* extension_;
     const GlbLayout& layout_;
     const GlbStorage& storage_;
+    const GlbOptions& options_;
     Json extensionsUsed_ = Json::array();
     Json nodes_ = Json::array();
     Json cameras_ = Json::array();
@@ -370,8 +380,8 @@ class GlbDescription {
 }  // namespace
 
 std::string describeGlb(const Scene& scene, const GlbExtension* extension, const GlbLayout& layout,
-                        const GlbStorage& storage) {
-    return GlbDescription(scene, extension, layout, storage).dump();
+                        const GlbStorage& storage, const GlbOptions& options) {
+    return GlbDescription(scene, extension, layout, storage, options).dump();
 }
 
 }  // namespace prt::gltf

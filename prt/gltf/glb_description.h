@@ -14,6 +14,6 @@ namespace prt::gltf {
 /// @param storage    of the layout's views
 /// @throws Error     malformed if a number of the scene is not finite
 std::string describeGlb(const Scene& scene, const GlbExtension* extension, const GlbLayout& layout,
-                        const GlbStorage& storage);
+                        const GlbStorage& storage, const GlbOptions& options);
 
 }  // namespace prt::gltf

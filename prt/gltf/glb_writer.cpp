@@ -83,7 +83,9 @@ void makeGlb(const Scene& scene, const GlbExtension* extension, const GlbOptions
 
     const gltf::GlbLayout layout = gltf::layOutBinary(scene, extension);
     gltf::GlbStorage storage = gltf::planStorage(layout);
-    const auto describe = [&] { return gltf::describeGlb(scene, extension, layout, storage); };
+    const auto describe = [&] {
+        return gltf::describeGlb(scene, extension, layout, storage, options);
+    };
     // Checksums are all of one length, so a file that would be too large is known before its views
     // are made; where they are to be encoded, only then.
     if (!options.meshopt) layOutChunks(describe().size(), storage.byteLength);

@@ -36,6 +36,9 @@ struct GlbOptions {
     /// must then know EXT_meshopt_compression. Triangles stay in order; their corners may start at
     /// another. Much more is gained after orderForEncoding.
     bool meshopt = false;
+    /// Has viewers show base colour × texture × vertex colour as they are and add no light of their
+    /// own, those that know KHR_materials_unlit; the others show what the material says.
+    bool unlit = false;
 };
 
 /// A CRC-32 as the extension's checksums write it: eight lower-case hexadecimal digits.

@@ -269,6 +269,20 @@ TEST(GlbWriter, FactorsBeyondWhatGltfAllowsAreClampedAndEmissionKeepsItsStrength
     EXPECT_EQ(writeAndRead(scene).meshes[0].colors[0], Vec4f(1.0f, 0.0f, 0.5f, 1.0f));
 }
 
+TEST(GlbWriter, UnlitMaterialsSaySoAndDemandNothingOfReaders) {
+    Scene scene = plainScene();
+    scene.materials.resize(2);
+    scene.meshes[0].colors.assign(3, Vec4f(0.25f, 0.5f, 0.75f, 1.0f));
+    const GlbFile file = splitGlb(encodeGlb(scene, nullptr, {.unlit = true}));
+    EXPECT_EQ(file.json["extensionsUsed"], std::vector<std::string>{"KHR_materials_unlit"});
+    EXPECT_FALSE(file.json.contains("extensionsRequired"));
+    ASSERT_EQ(file.json["materials"].size(), 2u);
+    for (const auto& material : file.json["materials"])
+        EXPECT_EQ(material.at("extensions").at("KHR_materials_unlit"), nlohmann::json::object());
+    EXPECT_TRUE(file.json["meshes"][0]["primitives"][0]["attributes"].contains("COLOR_0"));
+    EXPECT_FALSE(splitGlb(encodeGlb(scene)).json.contains("extensionsUsed"));
+}
+
 TEST(GlbWriter, NamesThatAreNotUtf8AreMended) {
     Scene scene = plainScene();
     scene.meshes[0].name = "caf\xe9";
