@@ -61,7 +61,7 @@ Vec3f applyCurve(const Vec3f& x, ToneCurve curve) {
 }
 
 std::uint8_t encodeChannel(float display) {
-    return static_cast<std::uint8_t>(encodeSrgb(clampToUnit(display)) * 255.0f + 0.5f);
+    return static_cast<std::uint8_t>(encodeSrgb(display) * 255.0f + 0.5f);
 }
 
 }  // namespace
@@ -96,11 +96,15 @@ float decodeSrgb8(std::uint8_t codeValue) {
     return kLinear[codeValue];
 }
 
+Vec3f exposeForDisplay(const Vec3f& radiance, const DisplayOptions& options) {
+    const Vec3f shown = applyCurve(radiance * std::exp2(options.exposureStops), options.toneCurve);
+    return {clampToUnit(shown.x), clampToUnit(shown.y), clampToUnit(shown.z)};
+}
+
 Rgba8Image encodeForDisplay(const Image& radiance, const DisplayOptions& options) {
-    const float exposure = std::exp2(options.exposureStops);
     Rgba8Image display(radiance.width, radiance.height);
     for (std::size_t i = 0; i < radiance.pixels.size(); ++i) {
-        const Vec3f shown = applyCurve(radiance.pixels[i] * exposure, options.toneCurve);
+        const Vec3f shown = exposeForDisplay(radiance.pixels[i], options);
         display.pixels[i] = {.red = encodeChannel(shown.x),
                              .green = encodeChannel(shown.y),
                              .blue = encodeChannel(shown.z)};

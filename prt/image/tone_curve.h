@@ -37,6 +37,10 @@ struct DisplayOptions {
     ToneCurve toneCurve = ToneCurve::aces;
 };
 
+/// What a screen is to show of linear radiance: exposed, through the curve, clamped; linear, each
+/// channel in [0, 1].
+Vec3f exposeForDisplay(const Vec3f& radiance, const DisplayOptions& options = {});
+
 /// Turns linear radiance into the 8-bit sRGB picture that a PNG holds (C5). Alpha is opaque.
 Rgba8Image encodeForDisplay(const Image& radiance, const DisplayOptions& options = {});
 
