@@ -16,7 +16,6 @@
 #include "apps/prt/brdf_argument.h"
 #include "apps/prt/commands.h"
 #include "apps/prt/interrupts.h"
-#include "apps/prt/light_window.h"
 #include "apps/prt/limits.h"
 #include "apps/prt/prepared_asset.h"
 #include "apps/prt/stage_log.h"
@@ -41,21 +40,12 @@ struct RenderArguments {
     ViewArguments view;
     std::optional<ShownTransport> transport;
     std::vector<BrdfArgument> brdfs;
-    Vec3d rotationDegrees{0.0, 0.0, 0.0};
-    std::string window = "none";
+    LightingArguments lighting;
     DisplayOptions display;
     bool background = false;
     bool gpu = false;
     ReaderLimits limits;
 };
-
-/// The light as it is turned and smoothed for what is shown of the asset.
-Lighting prepareLighting(const RenderArguments& arguments, const Asset& asset,
-                         const LightSource& light, ShownTransport shown) {
-    const Lighting turned = rotate(light.lighting, rotationFromDegrees(arguments.rotationDegrees));
-    return lowerRinging(turned, arguments.window,
-                        [&] { return deringForAsset(asset, arguments.asset, shown, turned); });
-}
 
 /// What is drawn, by rays or by OpenGL.
 struct PreparedView {
@@ -74,8 +64,9 @@ PreparedView prepareView(const RenderArguments& arguments, const Asset& asset,
     for (const std::string& sentence : describeLostLobes(asset, view.shown, view.brdfs))
         log.warn(sentence);
     view.camera = chooseCamera(arguments.view, asset.scene, arguments.asset);
-    view.worldFromLight = rotationFromDegrees(arguments.rotationDegrees);
-    view.lighting = prepareLighting(arguments, asset, light, view.shown);
+    view.worldFromLight = rotationFromDegrees(arguments.lighting.rotationDegrees);
+    view.lighting =
+        prepareLighting(light.lighting, arguments.lighting, asset, arguments.asset, view.shown);
     return view;
 }
 
@@ -216,9 +207,7 @@ void addRenderCommand(CLI::App& app) {
     addParsedOption(*command, "--transport", arguments->transport, parseShownTransport,
                     kShownTransportForms, "how much of light transport to show [all there is]");
     addBrdfOption(*command, arguments->brdfs);
-    addRotationOption(*command, arguments->rotationDegrees);
-    addWindowOption(*command, arguments->window,
-                    "lower ringing; auto: as little as leaves no negative reflection");
+    addLightingOptions(*command, arguments->lighting);
     addViewOptions(*command, arguments->view);
     const auto [exposure, tone] = addDisplayOptions(*command, arguments->display, " (.png)");
     command->add_flag("--background", arguments->background,

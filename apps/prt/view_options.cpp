@@ -38,10 +38,12 @@ DisplayOptionHandles addDisplayOptions(CLI::App& command, DisplayOptions& displa
     exposure->check(CLI::Range(-100.0, 100.0).description(""))
         ->type_name("EV")
         ->capture_default_str();
-    CLI::Option* tone = addParsedOption(command, "--tone", display.toneCurve, parseToneCurve,
-                                        "none|aces|neutral", "tone curve" + note)
-                            ->default_str("aces");
-    return {exposure, tone};
+    return {exposure, addToneOption(command, display.toneCurve, "tone curve" + note)};
+}
+
+CLI::Option* addToneOption(CLI::App& command, ToneCurve& toneCurve, const std::string& help) {
+    return addParsedOption(command, "--tone", toneCurve, parseToneCurve, "none|aces|neutral", help)
+        ->default_str(std::string(toneCurveName(toneCurve)));
 }
 
 Camera chooseCamera(const ViewArguments& view, const Scene& scene, const std::string& asset) {

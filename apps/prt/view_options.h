@@ -33,6 +33,9 @@ struct DisplayOptionHandles {
 DisplayOptionHandles addDisplayOptions(CLI::App& command, DisplayOptions& display,
                                        const std::string& note = {});
 
+/// --tone alone, whose default is the curve's value.
+CLI::Option* addToneOption(CLI::App& command, ToneCurve& toneCurve, const std::string& help);
+
 /// The camera that the options ask for.
 ///
 /// @param asset   how to call the scene in an error
