@@ -75,6 +75,7 @@ int runCommand(int argumentCount, char** arguments) {
     prt::cli::addLightCommand(app);
     prt::cli::addBrdfCommand(app);
     prt::cli::addRenderCommand(app);
+    prt::cli::addExportCommand(app);
     prt::cli::addCompareCommand(app);
     prt::cli::addViewCommand(app);
     prt::cli::addInfoCommand(app);
