@@ -187,6 +187,8 @@ void runExport(const ExportArguments& arguments) {
     const std::optional<Vec3f> eye = findEye(arguments, asset.scene);
     FrozenView view{asset, chooseFrozen(arguments, asset, eye.has_value()), eye,
                     AssetRelighter(asset, arguments.asset)};
+    if (isGlossy(fullestShown(asset.transfer)) && !eye && !arguments.transport)
+        log.tell("all surfaces are taken for diffuse (--camera or --eye freezes how they shine)");
     for (std::size_t i = 0; i < lights.size(); ++i) {
         stopIfInterrupted();
         exportUnder(arguments, view, lights[i], outputs[i], log);

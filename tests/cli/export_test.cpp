@@ -295,6 +295,10 @@ TEST_F(CliExport, WithoutAnEyeNothingShines) {
     const Asset asset = readAsset(file("glossy.prt.glb"));
     expectFrozen(freeze("glossy.prt.glb", light), asset, Transport::interreflected,
                  uniformLighting(Vec3d(1.0), asset.transfer.bandCount), 0.0f);
+    const std::string told =
+        run({"export", "glossy.prt.glb", "--frozen", "-o", "out.glb", "--light", "uniform:1"})
+            .errors;
+    EXPECT_NE(told.find("taken for diffuse (--camera or --eye"), std::string::npos) << told;
     expectWithout("glossy.prt.glb", {"--transport", "glossy"}, {"--transport", "--eye"});
     expectWithout("glossy.prt.glb", {"--transport", "shadowed", "--eye", "0,1,2"},
                   {"--eye", "shadowed"});
