@@ -153,9 +153,8 @@ CompressedTransfer makeTransfer(std::size_t vertexCount, const Form& form) {
 }
 
 /// Made at first need, and for all.
-const GlContext& openContext() {
+void openContext() {
     static const GlContext context;
-    return context;
 }
 
 /// All that a frame takes but its radiance.
@@ -222,7 +221,7 @@ void timeFrames(benchmark::State& state, double byteCount, const std::function<v
         seconds.push_back(readWallSeconds() - start);
         cpuSeconds.push_back(readProcessSeconds() - cpuStart);
     }
-    state.SetLabel(openContext().description());
+    state.SetLabel(describeDriver());
     state.counters["frames/s"] = 1.0 / median(seconds);
     state.counters["least_ms"] = 1e3 * *std::ranges::min_element(seconds);
     state.counters["least_cpu_ms"] = 1e3 * *std::ranges::min_element(cpuSeconds);
