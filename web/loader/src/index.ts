@@ -16,3 +16,5 @@ export { evaluateSh, shIndex } from './sh/sh.js';
 export { type ShWindow, windowFactors } from './sh/window.js';
 export { receiveLight, relight } from './relight/relight.js';
 export { tangentFrame } from './relight/tangent_frame.js';
+export { OpenPrtPlugin, type PluginOptions, relightableOf } from './plugin.js';
+export { Relightable, type RelightMode } from './relightable.js';

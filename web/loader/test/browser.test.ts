@@ -1,0 +1,42 @@
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+
+import { type OpenPage, hasBrowser, openPage } from './support/browser.js';
+import { goldenBytes, kEncodings, kVersions } from './support/golden.js';
+import { largestDifference, vectors } from './support/vectors.js';
+
+// Floats on both sides; radiance is of magnitude 1 to 10.
+const kRounding = 1e-5;
+
+describe.skipIf(!hasBrowser)('in Chromium', () => {
+    let opened: OpenPage;
+    beforeAll(async () => {
+        opened = await openPage();
+    }, 60000);
+    afterAll(() => opened?.close());
+
+    const draw = (file: string, mode: string, lighting: unknown): Promise<Record<string, number[]>> =>
+        opened.page.evaluate(`window.draw(${JSON.stringify(`/golden/${file}`)}, "${mode}", ${JSON.stringify(lighting)})`);
+
+    it.each(kVersions.flatMap((version) => kEncodings.map((encoding) => `${version}-${encoding}.prt.glb`)))(
+        '%s looks the same summed by the shader and on the CPU',
+        async (file) => {
+            const { lighting } = vectors.assets[0] as any;
+            const byShader = await draw(file, 'gpu', lighting);
+            const onCpu = await draw(file, 'cpu', lighting);
+            expect(Object.keys(byShader)).toEqual(Object.keys(onCpu));
+            expect(Object.keys(byShader).length).toBe(file.startsWith('1.2') ? 4 : 2);
+            for (const transport of Object.keys(byShader)) {
+                expect(byShader[transport].filter((value) => value > 0.01).length).toBeGreaterThan(1000);
+                expect(largestDifference(byShader[transport], onCpu[transport])).toBeLessThan(kRounding);
+            }
+            expect(opened.complaints).toEqual([]);
+        },
+    );
+
+    it('a damaged asset fails to load, with the sentence of the reader', async () => {
+        const bytes = goldenBytes('1.2', 'unorm8');
+        bytes[bytes.length - 200] ^= 1;
+        expect(await opened.page.evaluate(`window.refusalOf([${bytes.join()}])`)).toMatch(/OpenPrtError: buffer view \d+ is damaged/);
+        expect(opened.complaints).toEqual([]);
+    });
+});
