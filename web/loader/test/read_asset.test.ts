@@ -5,7 +5,7 @@ import { kTransports } from '../src/asset/layer.js';
 import { readAsset } from '../src/asset/read_asset.js';
 import { OpenPrtError } from '../src/error.js';
 import { coefficientsOf } from '../src/relight/coefficients.js';
-import { type GlbFile, joinGlb, openGlb, headerOf, layerOf, repairChecksums } from './support/glb_file.js';
+import { type GlbFile, boundOf, headerOf, joinGlb, layerOf, openGlb, primitiveOf, repairChecksums } from './support/glb_file.js';
 import { goldenBytes, goldenCoefficient, kEncodings, kGoldenVertexCount, kVersions } from './support/golden.js';
 
 // Coefficients are floats of magnitude 1.
@@ -102,6 +102,60 @@ describe('versions', () => {
         const file = openGlb(goldenBytes('1.2', 'unorm8'));
         delete file.json.extensions;
         expect(refusalOf(file).code).toBe('unsupported');
+    });
+});
+
+describe('the glTF around it', () => {
+    it('may replace elements sparsely, and name no scene', () => {
+        const bytes = goldenBytes('1.2', 'float32');
+        const original = readAsset(bytes);
+        const file = openGlb(bytes);
+        delete file.json.scene;
+        const attribute = file.json.accessors[primitiveOf(file, 0).attributes._PRT_0];
+        const view = file.json.bufferViews[attribute.bufferView];
+        // Elements 2 and 3 of the view's bytes move behind, and others take their place.
+        const moved = file.binary.slice(view.byteOffset + 32, view.byteOffset + 64);
+        const end = file.binary.length;
+        const binary = new Uint8Array(end + 36);
+        binary.set(file.binary);
+        binary.set([2, 3], end);
+        binary.set(moved, end + 4);
+        file.binary = binary;
+        file.binary.fill(7, view.byteOffset + 32, view.byteOffset + 64);
+        file.json.buffers[0].byteLength = binary.length;
+        file.json.bufferViews.push({ buffer: 0, byteOffset: end, byteLength: 36 });
+        const bufferView = file.json.bufferViews.length - 1;
+        attribute.sparse = { count: 2, indices: { bufferView, componentType: 5121 }, values: { bufferView, byteOffset: 4 } };
+        const checksums = { ...boundOf(file, 0) };
+        headerOf(file).checksums.push('');
+        repairChecksums(file);
+        Object.assign(boundOf(file, 0), checksums);
+        expect(readAsset(joinGlb(file)).primitives).toEqual(original.primitives);
+        file.binary.set([3, 2], end);
+        repairChecksums(file);
+        Object.assign(boundOf(file, 0), checksums);
+        expect(refusalOf(file).message).toContain('ascend');
+    });
+
+    it('may be interleaved', () => {
+        const bytes = goldenBytes('1.2', 'unorm8');
+        const original = readAsset(bytes);
+        const file = openGlb(bytes);
+        const attribute = file.json.accessors[primitiveOf(file, 0).attributes._PRT_0];
+        const { byteOffset } = file.json.bufferViews[attribute.bufferView];
+        const begin = file.binary.length;
+        const binary = new Uint8Array(begin + 12 * attribute.count);
+        binary.set(file.binary);
+        for (let i = 0; i < attribute.count; ++i) binary.set(file.binary.subarray(byteOffset + 4 * i, byteOffset + 4 * i + 4), begin + 12 * i + 8);
+        file.binary = binary;
+        file.json.buffers[0].byteLength = binary.length;
+        attribute.bufferView = file.json.bufferViews.push({ buffer: 0, byteOffset: begin, byteLength: 12 * attribute.count, byteStride: 12 }) - 1;
+        attribute.byteOffset = 8;
+        headerOf(file).checksums.push('');
+        const checksums = { ...boundOf(file, 0) };
+        repairChecksums(file);
+        Object.assign(boundOf(file, 0), checksums);
+        expect(readAsset(joinGlb(file)).primitives).toEqual(original.primitives);
     });
 });
 

@@ -100,27 +100,59 @@ export class GltfDocument {
         if (own.type !== form.type || own.componentType !== form.componentType || own.normalized !== form.normalized)
             accessor.reject('has another form than its use demands');
         if (own.count !== form.count) accessor.reject(`has another number of elements than ${form.count}`);
-        if (accessor.find('sparse')) accessor.reject('is sparse, which nothing of an asset may be');
-
-        const view = this.view(accessor.at('bufferView'));
         const size = kComponentBytes[own.componentType] * kComponentsOfType[own.type];
-        const begin = accessor.find('byteOffset')?.toCount() ?? 0;
+        const alignment = kComponentBytes[own.componentType];
+        const packed = accessor.find('bufferView') ? this.slicePacked(accessor, size, own.count, alignment) : undefined;
+        const sparse = accessor.find('sparse');
+        if (!sparse) return packed ?? accessor.reject('has neither a buffer view nor sparse elements');
+        // Zeros, where there is no buffer view: no more than a view could hold.
+        if (!packed && size * own.count > kMostDecodedPerStored * this.storedBytes()) accessor.reject('has more elements than the file has bytes for');
+        const replaced = packed?.slice() ?? new Uint8Array(size * own.count);
+        this.replaceSparse(sparse, replaced, size, own.count, alignment);
+        return replaced;
+    }
+
+    /** `count` elements of an accessor, or of an array of a sparse one. */
+    private slicePacked(place: JsonCursor, size: number, count: number, alignment: number): Uint8Array {
+        const view = this.view(place.at('bufferView'));
+        const begin = place.find('byteOffset')?.toCount() ?? 0;
         const stride = view.stride || size;
-        if (stride < size) accessor.reject('has elements larger than the stride of its buffer view');
-        if (begin % kComponentBytes[own.componentType] !== 0) accessor.reject('is not aligned');
-        if (begin + stride * (own.count - 1) + size > view.byteLength) accessor.reject('ends behind its buffer view');
+        if (stride < size) place.reject('has elements larger than the stride of its buffer view');
+        if (begin % alignment !== 0) place.reject('is not aligned');
+        if (begin + stride * (count - 1) + size > view.byteLength) place.reject('ends behind its buffer view');
         const bytes = this.bytesOf(view);
-        if (stride === size) return bytes.subarray(begin, begin + size * own.count);
-        const packed = new Uint8Array(size * own.count);
-        for (let i = 0; i < own.count; ++i)
-            packed.set(bytes.subarray(begin + i * stride, begin + i * stride + size), i * size);
+        if (stride === size) return bytes.subarray(begin, begin + size * count);
+        const packed = new Uint8Array(size * count);
+        for (let i = 0; i < count; ++i) packed.set(bytes.subarray(begin + i * stride, begin + i * stride + size), i * size);
         return packed;
+    }
+
+    private replaceSparse(sparse: JsonCursor, elements: Uint8Array, size: number, count: number, alignment: number): void {
+        const replacedCount = sparse.at('count').toCount(1, count);
+        const indices = sparse.at('indices');
+        const indexSize = ({ 5121: 1, 5123: 2, 5125: 4 } as Record<number, number>)[indices.at('componentType').toCount()];
+        if (!indexSize) indices.at('componentType').reject('is no type of indices');
+        const stored = this.slicePacked(indices, indexSize, replacedCount, indexSize);
+        const values = this.slicePacked(sparse.at('values'), size, replacedCount, alignment);
+        for (let i = 0, before = -1; i < replacedCount; ++i) {
+            let index = 0;
+            for (let byte = indexSize - 1; byte >= 0; --byte) index = index * 256 + stored[i * indexSize + byte];
+            if (index <= before || index >= count) indices.reject('must ascend, and name elements that are there');
+            elements.set(values.subarray(i * size, (i + 1) * size), index * size);
+            before = index;
+        }
+    }
+
+    private storedBytes(): number {
+        return this.views.reduce((sum, view) => sum + view.stored.length, 0);
     }
 
     private checkVersion(): void {
         const asset = this.root.at('asset');
         if (!/^2\.[0-9]+$/.test(asset.at('version').toText()))
             throw new OpenPrtError('unsupported', `the file is glTF ${asset.at('version').toText()}, and this reader knows 2.0`);
+        if ((asset.find('minVersion')?.toText() ?? '2.0') !== '2.0')
+            throw new OpenPrtError('unsupported', 'the file asks for a reader of a later version than glTF 2.0');
         for (const name of this.list('extensionsRequired'))
             if (!kUnderstood.test(name.toText()))
                 throw new OpenPrtError('unsupported', `the file requires ${name.toText()}, which this reader does not know`);

@@ -1,6 +1,5 @@
-import { OpenPrtError } from '../error.js';
 import type { GltfDocument } from './gltf_document.js';
-import type { JsonCursor } from './json_cursor.js';
+import { JsonCursor } from './json_cursor.js';
 
 /** A primitive that the scene shows. */
 export interface ShownPrimitive {
@@ -46,13 +45,16 @@ export function listShownPrimitives(document: GltfDocument): ShownPrimitive[] {
     return shown;
 }
 
-/** The nodes of the scene that the file names, else of its first. */
+/** The nodes of the scene that the file names; where it names none, all that have no parent. */
 function rootsOf(document: GltfDocument): JsonCursor[] {
-    const scenes = document.list('scenes');
-    if (scenes.length === 0) throw new OpenPrtError('malformed', 'the file shows no scene');
-    const index = document.root.find('scene')?.toCount() ?? 0;
-    const scene = scenes[index] ?? document.root.at('scene').reject('is no scene');
-    return scene.find('nodes')?.elements() ?? [];
+    const reference = document.root.find('scene');
+    if (reference) {
+        const scene = document.list('scenes')[reference.toCount()] ?? reference.reject('is no scene');
+        return scene.find('nodes')?.elements() ?? [];
+    }
+    const nodes = document.list('nodes');
+    const children = new Set(nodes.flatMap((node) => node.find('children')?.elements() ?? []).map((child) => child.toCount()));
+    return [...nodes.keys()].filter((node) => !children.has(node)).map((node) => new JsonCursor(node, `glTF.nodes[${node}]`));
 }
 
 function numbersOf(node: JsonCursor, key: string, fallback: readonly number[]): readonly number[] {

@@ -25,10 +25,11 @@ export interface OpenPage {
     close(): Promise<void>;
 }
 
-export async function openPage(): Promise<OpenPage> {
+/** @param folders  more of what the page may fetch, by the beginning of its path */
+export async function openPage(folders: Record<string, string> = {}): Promise<OpenPage> {
     const dist = mkdtempSync(join(tmpdir(), 'openprt-three-'));
     execFileSync('node', [join(root, 'node_modules/typescript/bin/tsc'), '-p', join(root, 'tsconfig.build.json'), '--outDir', dist]);
-    const server = await serve({ '/dist/': dist, '/golden/': golden, '/node_modules/': join(root, 'node_modules'), '/test/': join(root, 'test') });
+    const server = await serve({ '/dist/': dist, '/golden/': golden, '/node_modules/': join(root, 'node_modules'), '/test/': join(root, 'test'), ...folders });
     const browser: Browser = await chromium.launch({ executablePath: kChromium, args: ['--no-sandbox'] });
     const page = await browser.newPage();
     const complaints: string[] = [];
