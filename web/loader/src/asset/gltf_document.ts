@@ -28,6 +28,7 @@ export interface AccessorForm {
 interface BufferView {
     place: JsonCursor;
     stored: Uint8Array;
+    byteOffset: number;
     byteLength: number;
     stride: number;
     /** What EXT_meshopt_compression says; `bytes` are then decoded on first use. */
@@ -104,11 +105,11 @@ export class GltfDocument {
         const alignment = kComponentBytes[own.componentType];
         const packed = accessor.find('bufferView') ? this.slicePacked(accessor, size, own.count, alignment) : undefined;
         const sparse = accessor.find('sparse');
-        if (!sparse) return packed ?? accessor.reject('has neither a buffer view nor sparse elements');
-        // Zeros, where there is no buffer view: no more than a view could hold.
+        if (packed && !sparse) return packed;
+        // Zeros, where there is no buffer view, but not without end.
         if (!packed && size * own.count > kMostDecodedPerStored * this.storedBytes()) accessor.reject('has more elements than the file has bytes for');
         const replaced = packed?.slice() ?? new Uint8Array(size * own.count);
-        this.replaceSparse(sparse, replaced, size, own.count, alignment);
+        if (sparse) this.replaceSparse(sparse, replaced, size, own.count, alignment);
         return replaced;
     }
 
@@ -118,7 +119,7 @@ export class GltfDocument {
         const begin = place.find('byteOffset')?.toCount() ?? 0;
         const stride = view.stride || size;
         if (stride < size) place.reject('has elements larger than the stride of its buffer view');
-        if (begin % alignment !== 0) place.reject('is not aligned');
+        if ((view.byteOffset + begin) % alignment !== 0) place.reject('is not aligned to its numbers');
         if (begin + stride * (count - 1) + size > view.byteLength) place.reject('ends behind its buffer view');
         const bytes = this.bytesOf(view);
         if (stride === size) return bytes.subarray(begin, begin + size * count);
@@ -153,6 +154,7 @@ export class GltfDocument {
             throw new OpenPrtError('unsupported', `the file is glTF ${asset.at('version').toText()}, and this reader knows 2.0`);
         if ((asset.find('minVersion')?.toText() ?? '2.0') !== '2.0')
             throw new OpenPrtError('unsupported', 'the file asks for a reader of a later version than glTF 2.0');
+        this.list('extensionsUsed').forEach((name) => name.toText());
         for (const name of this.list('extensionsRequired'))
             if (!kUnderstood.test(name.toText()))
                 throw new OpenPrtError('unsupported', `the file requires ${name.toText()}, which this reader does not know`);
@@ -200,13 +202,14 @@ function slice(
 }
 
 function parseView(place: JsonCursor, sizes: readonly number[], buffers: readonly (Uint8Array | undefined)[]): BufferView {
+    const byteOffset = place.find('byteOffset')?.toCount() ?? 0;
     const byteLength = place.at('byteLength').toCount(1);
     const stride = place.find('byteStride')?.toCount(4, 252) ?? 0;
     if (stride % 4 !== 0) place.at('byteStride').reject('must be a multiple of 4');
     const packing = place.find('extensions')?.find(kMeshopt);
     if (!packing) {
         const bytes = slice(place, sizes, buffers, byteLength);
-        return { place, stored: bytes, byteLength, stride, packing: undefined, bytes };
+        return { place, stored: bytes, byteOffset, byteLength, stride, packing: undefined, bytes };
     }
     const stored = slice(packing, sizes, buffers, packing.at('byteLength').toCount(1));
     const count = packing.at('count').toCount(1);
@@ -214,7 +217,7 @@ function parseView(place: JsonCursor, sizes: readonly number[], buffers: readonl
         packing.reject('does not fit the length of its buffer view');
     if (byteLength > kMostDecodedPerStored * stored.length) packing.reject('promises more than its bytes can hold');
     return {
-        place, stored, byteLength, stride, bytes: undefined,
+        place, stored, byteOffset: 0, byteLength, stride, bytes: undefined,
         packing: { count, mode: packing.at('mode').toText(), filter: packing.find('filter')?.toText() ?? 'NONE' },
     };
 }

@@ -5,6 +5,7 @@ import { type AccessorForm, GltfDocument, type MeshoptDecoder } from './gltf_doc
 import { type Header, kExtension, kMaxCoefficient, parseHeader } from './header.js';
 import { JsonCursor } from './json_cursor.js';
 import { type Encoding, type Layer, type StoredArray, arrayOver, bytesPerNumber, largestStored } from './layer.js';
+import { checkMaterials } from './materials.js';
 import { type ShownPrimitive, listShownPrimitives } from './shown_primitives.js';
 
 /** What is stored of the vertices of one primitive. */
@@ -56,6 +57,7 @@ export function readAssetParts(json: unknown, buffers: readonly (Uint8Array | un
     checkViews(document, header);
     header.layers.forEach((layer, i) => readVectors(document, layer, `layer ${i}`));
 
+    checkMaterials(document);
     const shown = listShownPrimitives(document);
     const counts = shown.map(({ object }) => document.countOf(attributeOf(object, 'POSITION')));
     const vertexCount = counts.reduce((sum, count) => sum + count, 0);
@@ -146,20 +148,16 @@ function readPrimitive(document: GltfDocument, header: Header, shown: ShownPrimi
 }
 
 function checkTriangles(document: GltfDocument, primitive: JsonCursor, vertexCount: number): void {
-    if ((primitive.find('mode')?.toCount() ?? 4) !== 4) primitive.reject('is not made of triangles');
+    if (![4, 5, 6].includes(primitive.find('mode')?.toCount() ?? 4)) primitive.reject('is not made of triangles');
     const reference = primitive.find('indices');
-    let cornerCount = vertexCount;
-    if (reference) {
-        const form = document.formOf(reference.toCount());
-        const isIndex = [5121, 5123, 5125].includes(form.componentType) && form.type === 'SCALAR' && !form.normalized;
-        if (!isIndex) reference.reject('is an accessor that cannot hold indices');
-        const bytes = document.elementsOf(reference.toCount(), form);
-        const indices =
-            form.componentType === 5125 ? new Uint32Array(bytes.slice().buffer) : arrayOver(form.componentType === 5123 ? 'unorm16' : 'unorm8', bytes);
-        if (!indices.every((index: number) => index < vertexCount)) reference.reject('names a vertex that is not there');
-        cornerCount = indices.length;
-    }
-    if (cornerCount % 3 !== 0) primitive.reject('has a triangle that is cut off');
+    if (!reference) return;
+    const form = document.formOf(reference.toCount());
+    const isIndex = [5121, 5123, 5125].includes(form.componentType) && form.type === 'SCALAR' && !form.normalized;
+    if (!isIndex) reference.reject('is an accessor that cannot hold indices');
+    const bytes = document.elementsOf(reference.toCount(), form);
+    const indices =
+        form.componentType === 5125 ? new Uint32Array(bytes.slice().buffer) : arrayOver(form.componentType === 5123 ? 'unorm16' : 'unorm8', bytes);
+    if (!indices.every((index: number) => index < vertexCount)) reference.reject('names a vertex that is not there');
 }
 
 function makeNumbers(layer: Layer, vertexCount: number): StoredArray {
