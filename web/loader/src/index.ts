@@ -11,6 +11,7 @@ export {
     type Lighting, addLighting, applyWindow, darkness, parseLighting, reconstruct, scaleLighting, toThreeProbe, withBands,
 } from './sh/lighting.js';
 export { type LatLongImage, projectLatLong } from './sh/project_lat_long.js';
+export { projectTexture } from './sh/project_texture.js';
 export { rotateLighting } from './sh/rotate.js';
 export { evaluateSh, shIndex } from './sh/sh.js';
 export { type ShWindow, windowFactors } from './sh/window.js';
