@@ -5,13 +5,9 @@ import type { MeshoptDecoder } from './asset/gltf_document.js';
 import { kExtension } from './asset/header.js';
 import { type Asset, isAsset, readAssetParts } from './asset/read_asset.js';
 import { OpenPrtError } from './error.js';
-import { type RelightMode, Relightable } from './relightable.js';
+import { type RelightOptions, Relightable } from './relightable.js';
 
 const kUserDataKey = 'openPrt';
-
-export interface PluginOptions {
-    mode?: RelightMode;
-}
 
 /**
  * A plugin of three.js's GLTFLoader, which reads and checks the extension and makes the scene relightable:
@@ -27,7 +23,7 @@ export class OpenPrtPlugin implements GLTFLoaderPlugin {
 
     constructor(
         private readonly parser: GLTFParser,
-        private readonly options: PluginOptions = {},
+        private readonly options: RelightOptions = {},
     ) {}
 
     /** Reads transfer, and takes its attributes away: three.js need not load them too. */
@@ -60,7 +56,7 @@ export class OpenPrtPlugin implements GLTFLoaderPlugin {
             if (!found) throw new OpenPrtError('malformed', `primitive ${primitive} of mesh ${mesh} is not among what three.js loaded`);
             return found;
         });
-        gltf.userData[kUserDataKey] = new Relightable(asset, shown, this.options.mode);
+        gltf.userData[kUserDataKey] = new Relightable(asset, shown, this.options);
     }
 }
 

@@ -1,17 +1,22 @@
 import { BufferAttribute, type BufferGeometry, type DataTexture, DynamicDrawUsage, type Material, type Mesh } from 'three';
 
-import type { Layer, Transport } from './asset/layer.js';
+import { type Layer, type Transport, isGlossy } from './asset/layer.js';
 import type { Asset, AssetPrimitive } from './asset/read_asset.js';
 import { OpenPrtError } from './error.js';
 import { diffuseRow } from './relight/folded_light.js';
+import { GlossySurface, makeLobeTexture, surfaceOf } from './relight/glossy_surface.js';
 import { LayerLight } from './relight/layer_light.js';
 import { relight } from './relight/relight.js';
-import { kRadianceAttribute, makeRelightMaterial } from './relight/relight_material.js';
+import { kRadianceAttribute, kRadianceOfAttribute, makeRelightMaterial, sumRadiance } from './relight/relight_material.js';
 import { makeTransferTexture } from './relight/transfer_texture.js';
 import { type Lighting, darkness } from './sh/lighting.js';
 
-/** Where radiance is summed: at each frame on the GPU, or at each change of the light on the CPU, which a software rasteriser prefers. */
-export type RelightMode = 'gpu' | 'cpu';
+export interface RelightOptions {
+    /** Where radiance is summed: at each frame on the GPU, or at each change of the light on the CPU, which a software rasteriser prefers. */
+    mode?: 'gpu' | 'cpu';
+    /** Whether surfaces shine under glossy transport; else it shows what it says of diffuse ones. */
+    gloss?: boolean;
+}
 
 /** A primitive as three.js shows it. */
 interface ShownMesh {
@@ -19,7 +24,13 @@ interface ShownMesh {
     primitive: AssetPrimitive;
     source: Material;
     /** What setTransport made for a layer. */
-    made: Map<string, { material: Material; transfer?: DataTexture }>;
+    made: Map<string, MadeMaterial>;
+}
+
+interface MadeMaterial {
+    material: Material;
+    transfer?: DataTexture;
+    surface?: GlossySurface;
 }
 
 /** The meshes of a loaded asset, to be relit together. */
@@ -28,19 +39,24 @@ export class Relightable {
     private shownLayer: Layer;
     private readonly shown: ShownMesh[];
     private readonly lights = new Map<Layer, LayerLight>();
+    private readonly lobes = new Map<string, DataTexture>();
+    private readonly isOnCpu: boolean;
+    private readonly hasGloss: boolean;
 
     /** @param meshes  one for each of the asset's primitives */
     constructor(
         readonly asset: Asset,
         meshes: readonly Mesh<BufferGeometry>[],
-        readonly mode: RelightMode = 'gpu',
+        { mode = 'gpu', gloss = true }: RelightOptions = {},
     ) {
+        this.isOnCpu = mode === 'cpu';
+        this.hasGloss = gloss;
         this.lighting = darkness(this.bandCount);
         this.shown = meshes.map((mesh, i) => ({ mesh, primitive: asset.primitives[i], source: mesh.material as Material, made: new Map() }));
-        const { layers } = asset.header;
-        const vectors = layers.filter(({ incidentBandCount }) => incidentBandCount === 0);
-        this.shownLayer = [...vectors, ...layers.filter(diffuseRow)].at(vectors.length > 0 ? vectors.length - 1 : -1) ?? this.refuse();
-        this.show(this.shownLayer);
+        const fullest = asset.header.layers.filter((layer) => this.canShow(layer)).at(-1);
+        if (!fullest) throw new OpenPrtError('unsupported', 'the asset has matrices of one incident band alone, which say nothing of diffuse surfaces');
+        this.shownLayer = fullest;
+        this.show(fullest);
     }
 
     /** n of the light that is made use of. */
@@ -48,18 +64,18 @@ export class Relightable {
         return this.asset.header.bandCount;
     }
 
-    /** The kinds of transport that can be shown; of matrices, what they say of diffuse surfaces. */
+    /** The kinds of transport that can be shown. */
     get transports(): Transport[] {
-        return this.asset.header.layers.filter(diffuseRow).map((layer) => layer.transport);
+        return this.asset.header.layers.filter((layer) => this.canShow(layer)).map((layer) => layer.transport);
     }
 
     get transport(): Transport {
         return this.shownLayer.transport;
     }
 
-    /** Shows another kind of transport; at first it is the fullest of vectors. */
+    /** Shows another kind of transport; at first it is the fullest. */
     setTransport(transport: Transport): void {
-        const layer = this.asset.header.layers.find((candidate) => candidate.transport === transport && diffuseRow(candidate));
+        const layer = this.asset.header.layers.find((candidate) => candidate.transport === transport && this.canShow(candidate));
         if (!layer) throw new OpenPrtError('invalidOption', `the asset cannot show ${transport} transport, but ${this.transports.join(', ')}`);
         this.show(layer);
     }
@@ -70,67 +86,83 @@ export class Relightable {
         this.light();
     }
 
-    /** Radiance of a primitive's vertices before their albedo, three numbers a vertex, as computed on the CPU. */
-    relight(primitive: number, lighting: Lighting = this.lighting): Float32Array {
-        const index = this.asset.header.layers.indexOf(this.shownLayer);
-        return relight(this.shownLayer, this.asset.primitives[primitive].numbers[index], lighting);
-    }
-
     /** Frees what was made for the GPU, and gives the meshes their own materials back. */
     dispose(): void {
         for (const { mesh, source, made } of this.shown) {
             mesh.material = source;
-            for (const { material, transfer } of made.values()) {
+            for (const { material, transfer, surface } of made.values()) {
                 material.dispose();
                 transfer?.dispose();
+                surface?.dispose();
             }
             made.clear();
         }
-        this.lights.forEach((light) => light.dispose());
-        this.lights.clear();
+        for (const resources of [this.lights, this.lobes]) {
+            resources.forEach((resource) => resource.dispose());
+            resources.clear();
+        }
     }
 
-    private refuse(): never {
-        throw new OpenPrtError('unsupported', 'the asset has matrices of one incident band alone, which say nothing of diffuse surfaces');
+    private shines(layer: Layer): boolean {
+        return this.hasGloss && isGlossy(layer.transport);
+    }
+
+    private canShow(layer: Layer): boolean {
+        return this.shines(layer) || diffuseRow(layer) !== undefined;
     }
 
     private show(layer: Layer): void {
         this.shownLayer = layer;
-        if (this.mode === 'gpu' && !this.lights.has(layer)) this.lights.set(layer, new LayerLight(layer, diffuseRow(layer)!));
-        for (const shown of this.shown) shown.mesh.material = this.materialOf(shown, layer);
+        for (const shown of this.shown) {
+            const key = this.isOnCpu && !this.shines(layer) ? 'cpu' : layer.transport;
+            const made = shown.made.get(key) ?? this.make(shown, layer);
+            shown.made.set(key, made);
+            shown.mesh.material = made.material;
+        }
         this.light();
     }
 
-    private materialOf({ primitive, source, made, mesh }: ShownMesh, layer: Layer): Material {
-        const key = this.mode === 'gpu' ? layer.transport : 'cpu';
-        const cached = made.get(key);
-        if (cached) return cached.material;
-        if (this.mode === 'cpu') {
+    private make({ mesh, primitive, source }: ShownMesh, layer: Layer): MadeMaterial {
+        const numbers = primitive.numbers[this.asset.header.layers.indexOf(layer)];
+        if (this.shines(layer)) {
+            const { metallic, roughness } = surfaceOf(source);
+            const surface = new GlossySurface(layer, numbers, this.lobesOf(roughness, layer.incidentBandCount), metallic);
+            return { material: makeRelightMaterial(source, surface.radiance), surface };
+        }
+        if (this.isOnCpu) {
             // three.js shares a geometry between primitives that differ in their transfer alone.
             if (mesh.geometry.hasAttribute(kRadianceAttribute)) mesh.geometry = mesh.geometry.clone();
             const radiance = new BufferAttribute(new Float32Array(3 * primitive.vertexCount), 3).setUsage(DynamicDrawUsage);
             mesh.geometry.setAttribute(kRadianceAttribute, radiance);
-            const material = makeRelightMaterial(source);
-            made.set(key, { material });
-            return material;
+            return { material: makeRelightMaterial(source, kRadianceOfAttribute) };
         }
-        const light = this.lights.get(layer)!;
-        const numbers = primitive.numbers[this.asset.header.layers.indexOf(layer)];
+        const light = this.lights.get(layer) ?? new LayerLight(layer, diffuseRow(layer)!);
+        this.lights.set(layer, light);
         const transfer = makeTransferTexture(layer, numbers, light.attributes);
-        const material = makeRelightMaterial(source, light, transfer);
-        made.set(key, { material, transfer });
-        return material;
+        return { material: makeRelightMaterial(source, sumRadiance(light, transfer)), transfer };
+    }
+
+    private lobesOf(roughness: number, bandCount: number): DataTexture {
+        const key = `${roughness} ${bandCount}`;
+        const lobes = this.lobes.get(key) ?? makeLobeTexture(roughness, bandCount);
+        this.lobes.set(key, lobes);
+        return lobes;
     }
 
     private light(): void {
-        if (this.mode === 'gpu') {
-            this.lights.get(this.shownLayer)!.set(this.lighting);
+        const layer = this.shownLayer;
+        if (this.shines(layer)) {
+            for (const { made } of this.shown) made.get(layer.transport)!.surface!.set(this.lighting);
             return;
         }
-        const index = this.asset.header.layers.indexOf(this.shownLayer);
+        if (!this.isOnCpu) {
+            this.lights.get(layer)!.set(this.lighting);
+            return;
+        }
+        const index = this.asset.header.layers.indexOf(layer);
         for (const { mesh, primitive } of this.shown) {
             const attribute = mesh.geometry.getAttribute(kRadianceAttribute) as BufferAttribute;
-            relight(this.shownLayer, primitive.numbers[index], this.lighting, attribute.array as Float32Array);
+            relight(layer, primitive.numbers[index], this.lighting, attribute.array as Float32Array);
             attribute.needsUpdate = true;
         }
     }

@@ -6,6 +6,8 @@ import { largestDifference, vectors } from './support/vectors.js';
 
 // Floats on both sides; radiance is of magnitude 1 to 10.
 const kRounding = 1e-5;
+// acos of floats, between views of a table.
+const kGloss = 1e-4;
 
 describe.skipIf(!hasBrowser)('in Chromium', () => {
     let opened: OpenPage;
@@ -14,8 +16,8 @@ describe.skipIf(!hasBrowser)('in Chromium', () => {
     }, 60000);
     afterAll(() => opened?.close());
 
-    const draw = (file: string, mode: string, lighting: unknown): Promise<Record<string, number[]>> =>
-        opened.page.evaluate(`window.draw(${JSON.stringify(`/golden/${file}`)}, "${mode}", ${JSON.stringify(lighting)})`);
+    const draw = (file: string, mode: 'gpu' | 'cpu', lighting: unknown): Promise<Record<string, number[]>> =>
+        opened.page.evaluate(`window.draw(${JSON.stringify(`/golden/${file}`)}, { mode: "${mode}", gloss: false }, ${JSON.stringify(lighting)})`);
 
     it.each(kVersions.flatMap((version) => kEncodings.map((encoding) => `${version}-${encoding}.prt.glb`)))(
         '%s looks the same summed by the shader and on the CPU',
@@ -29,6 +31,20 @@ describe.skipIf(!hasBrowser)('in Chromium', () => {
                 expect(byShader[transport].filter((value) => value > 0.01).length).toBeGreaterThan(1000);
                 expect(largestDifference(byShader[transport], onCpu[transport])).toBeLessThan(kRounding);
             }
+            expect(opened.complaints).toEqual([]);
+        },
+    );
+
+    it.each([['glossy-shadowed', 1, 0.5], ['glossy', 0, 0.3], ['glossy', 0.5, 1]])(
+        '%s transport shines in the shader as on the CPU, at metallic %d and roughness %d',
+        async (transport, metalness, roughness) => {
+            const { lighting } = vectors.assets[0] as any;
+            const { byShader, onCpu }: Record<string, number[]> = await opened.page.evaluate(
+                `window.drawGloss("/golden/1.2-unorm16.prt.glb", "${transport}", ${JSON.stringify(lighting)}, { metalness: ${metalness}, roughness: ${roughness} })`,
+            );
+            expect(byShader.filter((value) => value > 0.01).length).toBeGreaterThan(1000);
+            // Negative radiance is cut off here per pixel.
+            expect(largestDifference(byShader, onCpu.map((value) => Math.max(value, 0)))).toBeLessThan(kGloss);
             expect(opened.complaints).toEqual([]);
         },
     );

@@ -6,24 +6,39 @@ import type { LayerLight } from './layer_light.js';
 /** Name of the vertex attribute of radiance that was computed on the CPU. */
 export const kRadianceAttribute = 'prtRadiance';
 
+/** How the vertex shader finds radiance: GLSL with a function `vec3 prtRadianceOf()`, before the albedo, and its uniforms. */
+export interface RadianceCode {
+    code: string;
+    uniforms: Record<string, { value: unknown }>;
+    /** The code also writes `varying vec3 vPrtConstant`, which no base colour multiplies. */
+    isGlossy?: boolean;
+}
+
+/** Radiance that was computed on the CPU. */
+export const kRadianceOfAttribute: RadianceCode = {
+    code: `attribute vec3 ${kRadianceAttribute};\nvec3 prtRadianceOf() { return ${kRadianceAttribute}; }`,
+    uniforms: {},
+};
+
+/** Radiance that is summed from transfer in a texture. @param transfer  of the primitive (makeTransferTexture) */
+export function sumRadiance(light: LayerLight, transfer: DataTexture): RadianceCode {
+    return { code: codeOf(light), uniforms: { ...light.uniforms, prtTransfer: { value: transfer } } };
+}
+
 /**
- * A material that shows albedo(pixel) · B, with B summed at vertices from transfer in a texture and interpolated.
+ * A material that shows albedo(pixel) · B, with B found at vertices and interpolated.
  *
  * Everything else is as three.js's MeshBasicMaterial has it: vertex colours, textures, alpha, fog, tone curve.
  *
- * @param source    what the glTF's material became, whose base colour and alpha are taken
- * @param light     of the layer; undefined where radiance is an attribute
- * @param transfer  of the primitive (makeTransferTexture)
+ * @param source  what the glTF's material became, whose base colour and alpha are taken
  */
-export function makeRelightMaterial(source: Material, light?: LayerLight, transfer?: DataTexture): MeshBasicMaterial {
+export function makeRelightMaterial(source: Material, { code, uniforms, isGlossy }: RadianceCode): MeshBasicMaterial {
     const { color, map, alphaMap, alphaTest, transparent, opacity, side, vertexColors, depthWrite, blending, name } = source as MeshStandardMaterial;
     const material = new MeshBasicMaterial({ alphaTest, transparent, opacity, side, vertexColors, depthWrite, blending, name });
     if (color) material.color.copy(color);
     material.map = map ?? null;
     material.alphaMap = alphaMap ?? null;
 
-    const uniforms = light && transfer ? { ...light.uniforms, prtTransfer: { value: transfer } } : {};
-    const code = light ? codeOf(light) : `attribute vec3 ${kRadianceAttribute};\nvec3 prtRadianceOf() { return ${kRadianceAttribute}; }`;
     material.customProgramCacheKey = () => code;
     material.onBeforeCompile = (shader) => {
         Object.assign(shader.uniforms, uniforms);
@@ -32,9 +47,10 @@ export function makeRelightMaterial(source: Material, light?: LayerLight, transf
             '#include <begin_vertex>\n    vPrtRadiance = prtRadianceOf();',
         );
         // Bands may leave radiance below 0, which no screen shows.
-        shader.fragmentShader = `varying vec3 vPrtRadiance;\n${shader.fragmentShader}`.replace(
+        const [declaration, constant] = isGlossy ? ['varying vec3 vPrtConstant;\n', ' + vPrtConstant'] : ['', ''];
+        shader.fragmentShader = `varying vec3 vPrtRadiance;\n${declaration}${shader.fragmentShader}`.replace(
             '#include <opaque_fragment>',
-            'outgoingLight = diffuseColor.rgb * max(vPrtRadiance, 0.0);\n    #include <opaque_fragment>',
+            `outgoingLight = max(diffuseColor.rgb * vPrtRadiance${constant}, 0.0);\n    #include <opaque_fragment>`,
         );
     };
     return material;

@@ -1,5 +1,5 @@
 // Draws assets for browser.test.ts: window.draw(...) returns linear pixels.
-import { OpenPrtPlugin, parseLighting, relightableOf } from 'openprt-three';
+import { OpenPrtPlugin, Relightable, makeLobeTable, parseLighting, receiveLight, reflect, relightableOf } from 'openprt-three';
 import * as three from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
@@ -9,10 +9,10 @@ const renderer = new three.WebGLRenderer();
 renderer.outputColorSpace = three.LinearSRGBColorSpace;
 const target = new three.WebGLRenderTarget(kSize, kSize, { type: three.FloatType });
 
-function load(url, mode) {
+function load(url, options) {
     const loader = new GLTFLoader();
     loader.setMeshoptDecoder(MeshoptDecoder);
-    loader.register((parser) => new OpenPrtPlugin(parser, { mode }));
+    loader.register((parser) => new OpenPrtPlugin(parser, options));
     return loader.loadAsync(url);
 }
 
@@ -41,8 +41,8 @@ function pixelsOf(scene, camera) {
 }
 
 /** Pixels of each kind of transport under a light. */
-window.draw = async (url, mode, lighting) => {
-    const gltf = await load(url, mode);
+window.draw = async (url, options, lighting) => {
+    const gltf = await load(url, options);
     const relightable = relightableOf(gltf);
     relightable.setLighting(parseLighting(lighting));
     const camera = cameraFor(gltf.scene);
@@ -53,6 +53,48 @@ window.draw = async (url, mode, lighting) => {
     }
     relightable.dispose();
     return pictures;
+};
+
+/** Pixels of a glossy layer by the shader, and with radiance that reflect() gave at the vertices; materials are as given. */
+window.drawGloss = async (url, transport, lighting, surface) => {
+    const gltf = await load(url, {});
+    const relightable = relightableOf(gltf);
+    relightable.dispose();
+    const meshes = [];
+    gltf.scene.traverse((object) => object.isMesh && meshes.push(object));
+    for (const mesh of meshes) {
+        mesh.material = mesh.material.clone();
+        Object.assign(mesh.material, surface);
+        mesh.material.color.setRGB(0.9, 0.5, 0.2);
+    }
+    const { asset } = relightable;
+    const again = new Relightable(asset, meshes);
+    again.setTransport(transport);
+    again.setLighting(parseLighting(lighting));
+    const camera = cameraFor(gltf.scene);
+    const perspective = new three.PerspectiveCamera(40, 1, 0.1, 1000);
+    perspective.position.copy(camera.position);
+    perspective.lookAt(new three.Box3().setFromObject(gltf.scene).getCenter(new three.Vector3()));
+    const byShader = pixelsOf(gltf.scene, perspective);
+
+    const index = asset.header.layers.findIndex((layer) => layer.transport === transport);
+    const layer = asset.header.layers[index];
+    const lobes = makeLobeTable(surface.roughness, layer.incidentBandCount);
+    meshes.forEach((mesh, i) => {
+        const primitive = asset.primitives[i];
+        const incident = receiveLight(layer, primitive.numbers[index], parseLighting(lighting));
+        const colors = new Float32Array(3 * primitive.vertexCount);
+        for (let vertex = 0; vertex < primitive.vertexCount; ++vertex) {
+            const normal = new three.Vector3().fromArray(primitive.normals, 3 * vertex).normalize();
+            const view = perspective.position.clone().sub(new three.Vector3().fromBufferAttribute(mesh.geometry.attributes.position, vertex)).normalize();
+            const first = 3 * vertex * layer.incidentBandCount ** 2;
+            const exit = reflect(incident, first, layer.incidentBandCount, normal.toArray(), view.toArray(), lobes, surface.metalness);
+            [0.9, 0.5, 0.2].forEach((base, c) => (colors[3 * vertex + c] = base * exit.perBaseColor[c] + exit.constant[c]));
+        }
+        mesh.geometry.setAttribute('color', new three.BufferAttribute(colors, 3));
+        mesh.material = new three.MeshBasicMaterial({ vertexColors: true });
+    });
+    return { byShader, onCpu: pixelsOf(gltf.scene, perspective) };
 };
 
 window.refusalOf = (bytes) =>
