@@ -1,5 +1,8 @@
+import { readFileSync } from 'node:fs';
+
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
+import { joinGlb, openGlb } from './support/glb_file.js';
 import { type OpenPage, hasBrowser, openPage } from './support/browser.js';
 import { goldenBytes, kEncodings, kVersions } from './support/golden.js';
 import { largestDifference, vectors } from './support/vectors.js';
@@ -48,6 +51,34 @@ describe.skipIf(!hasBrowser)('in Chromium', () => {
             expect(opened.complaints).toEqual([]);
         },
     );
+
+    it('a lost and restored context shows the same', async () => {
+        const { lighting } = vectors.assets[0] as any;
+        const { before, after }: Record<string, number[]> = await opened.page.evaluate(
+            `window.drawThroughLoss("/golden/1.1-unorm8.prt.glb", ${JSON.stringify(lighting)})`,
+        );
+        expect(before.filter((value) => value > 0.01).length).toBeGreaterThan(1000);
+        expect(after).toEqual(before);
+        const said = opened.complaints.splice(0);
+        expect(said.filter((complaint) => !/context (was )?lost|context (was )?restored|CONTEXT_LOST/i.test(complaint))).toEqual([]);
+    });
+
+    it('a plain glTF loads as ever, and has nothing to relight', async () => {
+        const file = openGlb(goldenBytes('1.2', 'unorm8'));
+        delete file.json.extensions;
+        const bytes = joinGlb(file);
+        expect(await opened.page.evaluate(`window.loadPlain([${bytes.join()}])`)).toMatch(/^2 nodes; the file has no radiance transfer/);
+        expect(opened.complaints).toEqual([]);
+    });
+
+    it('the example of the README works', async () => {
+        const readme = readFileSync(new URL('../README.md', import.meta.url), 'utf8');
+        const [, code] = /```js\n([^]*?)```/.exec(readme)!;
+        const origin = new URL(opened.page.url()).origin;
+        const module = code.replace('scene.prt.glb', `${origin}/golden/1.2-unorm8.prt.glb`);
+        expect(await opened.page.evaluate(`window.runModule(${JSON.stringify(module)})`)).toBeGreaterThan(100);
+        expect(opened.complaints).toEqual([]);
+    });
 
     it('a damaged asset fails to load, with the sentence of the reader', async () => {
         const bytes = goldenBytes('1.2', 'unorm8');

@@ -97,6 +97,43 @@ window.drawGloss = async (url, transport, lighting, surface) => {
     return { byShader, onCpu: pixelsOf(gltf.scene, perspective) };
 };
 
+/** Pixels before the context is lost, and after it is restored. */
+window.drawThroughLoss = async (url, lighting) => {
+    const gltf = await load(url, {});
+    relightableOf(gltf).setLighting(parseLighting(lighting));
+    const camera = cameraFor(gltf.scene);
+    const before = pixelsOf(gltf.scene, camera);
+    const happened = (name) => new Promise((resolve) => renderer.domElement.addEventListener(name, resolve, { once: true }));
+    const lost = happened('webglcontextlost');
+    renderer.forceContextLoss();
+    await lost;
+    const restored = happened('webglcontextrestored');
+    await new Promise((resolve) => setTimeout(resolve, 50));
+    renderer.forceContextRestore();
+    await restored;
+    return { before, after: pixelsOf(gltf.scene, camera) };
+};
+
+/** What relightableOf says of the glTF without its extension. */
+window.loadPlain = async (bytes) => {
+    const loader = new GLTFLoader();
+    loader.register((parser) => new OpenPrtPlugin(parser));
+    const gltf = await loader.parseAsync(new Uint8Array(bytes).buffer, '');
+    try {
+        return relightableOf(gltf);
+    } catch (error) {
+        return `${gltf.scene.children.length} nodes; ${error.message}`;
+    }
+};
+
+/** Runs code as a module, in which there is a scene. @returns  what is then in the scene and how it is lit */
+window.runModule = async (code) => {
+    window.scene = new three.Scene();
+    await import(URL.createObjectURL(new Blob([code], { type: 'text/javascript' })));
+    const pixels = pixelsOf(window.scene, cameraFor(window.scene));
+    return pixels.filter((value, i) => i % 4 < 3 && value > 0.01).length;
+};
+
 window.refusalOf = (bytes) =>
     new Promise((resolve) => {
         const loader = new GLTFLoader();
