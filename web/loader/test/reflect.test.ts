@@ -1,8 +1,9 @@
 import { describe, expect, it } from 'vitest';
 
-import { type Vec3, gaussLegendre } from '../src/math.js';
+import { type Vec3, gaussLegendre, transform, transpose } from '../src/math.js';
 import { makeLobeTable } from '../src/relight/gltf_lobes.js';
 import { reflect } from '../src/relight/reflect.js';
+import { tangentFrame } from '../src/relight/tangent_frame.js';
 import { evaluateSh } from '../src/sh/sh.js';
 
 const kBandCount = 5;
@@ -62,6 +63,22 @@ describe('reflection', () => {
         const { perBaseColor, constant } = reflect(receive(light), 0, kBandCount, up, view, makeLobeTable(roughness, kBandCount), metallic);
         const expected = reflectSlowly(light, view, roughness, metallic, baseColor);
         expect(Math.abs(baseColor * perBaseColor[1] + constant[1] - expected)).toBeLessThan(0.02 * expected);
+    });
+
+    it('at a grazing view shows even what reflects nothing straight on', () => {
+        const grazing: Vec3 = [Math.sin(1.35), 0, Math.cos(1.35)];
+        const { constant } = reflect(receive(light), 0, kBandCount, up, grazing, makeLobeTable(0.6, kBandCount), 1);
+        const expected = reflectSlowly(light, grazing, 0.6, 1, 0);
+        expect(expected).toBeGreaterThan(0.04);
+        expect(Math.abs(constant[0] - expected)).toBeLessThan(0.05 * expected);
+    });
+
+    it('is of the frame that the normal has', () => {
+        const lobes = makeLobeTable(0.5, kBandCount);
+        const normal: Vec3 = [2 / 7, 3 / 7, -6 / 7];
+        const there = transform(transpose(tangentFrame(normal)), view);
+        const straight = reflect(receive(light), 0, kBandCount, up, view, lobes, 0.5);
+        expect(reflect(receive(light), 0, kBandCount, normal, there, lobes, 0.5).perBaseColor[2]).toBeCloseTo(straight.perBaseColor[2], 6);
     });
 
     it('turns with light and view about the normal', () => {

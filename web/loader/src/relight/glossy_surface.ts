@@ -3,7 +3,7 @@ import { DataTexture, FloatType, type Material, type MeshStandardMaterial, RGBAF
 import type { Layer, StoredArray } from '../asset/layer.js';
 import type { Lighting } from '../sh/lighting.js';
 import { shIndex } from '../sh/sh.js';
-import { kMostViewRadians, kViewCount, makeLobeTable } from './gltf_lobes.js';
+import { kMostViewPlace, kViewCount, makeLobeTable } from './gltf_lobes.js';
 import { textureSideFor } from './layer_light.js';
 import { receiveLight } from './relight.js';
 import type { RadianceCode } from './relight_material.js';
@@ -95,7 +95,7 @@ vec3 prtRadianceOf() {
     vec3 t = vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
     vec3 b = vec3(n.x * n.y * a, s + n.y * n.y * a, -n.y);
     vec3 wo = vec3(dot(t, view), dot(b, view), dot(n, view));
-    float place = min(acos(clamp(wo.z, -1.0, 1.0)) / ${kMostViewRadians}, 1.0) * ${(kViewCount - 1).toFixed(1)};
+    float place = min(sqrt(max(1.0 - wo.z, 0.0)) / ${kMostViewPlace}, 1.0) * ${(kViewCount - 1).toFixed(1)};
     int row = min(int(place), ${kViewCount - 2});
     float share = place - float(row);
     float radius = length(wo.xy);

@@ -1,9 +1,10 @@
 import { type Vec3, gaussLegendre } from '../math.js';
 import { evaluateSh, shIndex } from '../sh/sh.js';
 
-/** How many views a table has, from the normal (0) to kMostViewRadians, evenly in the angle. */
+/** How many views a table has, from the normal on, evenly in √(1 − cos θ), which is about as the angle and exact in every shader. */
 export const kViewCount = 32;
-export const kMostViewRadians = 0.495 * Math.PI; // at π/2 lobes are not defined
+/** Of the last view, almost at the horizon, where lobes are not defined. */
+export const kMostViewPlace = 0.992;
 
 const kLeastAlpha = 0.002;
 const kHorizonWeight = 0.01;
@@ -28,8 +29,8 @@ export function makeLobeTable(roughness: number, bandCount: number): Float32Arra
     const table = new Float32Array(4 * uprightCount * kViewCount);
     const fit = makeHorizonFit(bandCount);
     for (let view = 0; view < kViewCount; ++view) {
-        const angle = (kMostViewRadians * view) / (kViewCount - 1);
-        const lobes = projectLobes([Math.sin(angle), 0, Math.cos(angle)], alpha, bandCount).map(fit);
+        const cosine = 1 - ((kMostViewPlace * view) / (kViewCount - 1)) ** 2;
+        const lobes = projectLobes([Math.sqrt(1 - cosine * cosine), 0, cosine], alpha, bandCount).map(fit);
         for (let l = 0; l < bandCount; ++l)
             for (let m = 0; m <= l; ++m)
                 lobes.forEach((lobe, k) => (table[4 * (view * uprightCount + (l * (l + 1)) / 2 + m) + k] = lobe[shIndex(l, m)]));

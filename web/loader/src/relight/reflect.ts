@@ -1,6 +1,6 @@
 import { type Vec3, transform } from '../math.js';
 import { shIndex } from '../sh/sh.js';
-import { kMostViewRadians, kViewCount } from './gltf_lobes.js';
+import { kMostViewPlace, kViewCount } from './gltf_lobes.js';
 import { tangentFrame } from './tangent_frame.js';
 
 /** What leaves a surface towards the eye: baseColor · perBaseColor + constant. */
@@ -20,7 +20,7 @@ export function reflect(
     incident: Float32Array, first: number, bandCount: number, normal: Vec3, view: Vec3, lobes: Float32Array, metallic: number,
 ): ExitRadiance {
     const [x, y, z] = transform(tangentFrame(normal), view);
-    const place = Math.min(Math.acos(Math.min(Math.max(z, -1), 1)) / kMostViewRadians, 1) * (kViewCount - 1);
+    const place = Math.min(Math.sqrt(Math.max(1 - z, 0)) / kMostViewPlace, 1) * (kViewCount - 1);
     const row = Math.min(Math.floor(place), kViewCount - 2);
     const azimuth = Math.atan2(y, x);
     const uprightCount = (bandCount * (bandCount + 1)) / 2;

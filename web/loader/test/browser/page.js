@@ -58,6 +58,7 @@ window.draw = async (url, options, lighting) => {
 /** Pixels of a glossy layer by the shader, and with radiance that reflect() gave at the vertices; materials are as given. */
 window.drawGloss = async (url, transport, lighting, surface) => {
     const gltf = await load(url, {});
+    const camera = cameraFor(gltf.scene);
     const relightable = relightableOf(gltf);
     relightable.dispose();
     const meshes = [];
@@ -68,10 +69,18 @@ window.drawGloss = async (url, transport, lighting, surface) => {
         mesh.material.color.setRGB(0.9, 0.5, 0.2);
     }
     const { asset } = relightable;
+    // Normals of all kinds: matrices of golden assets mean nothing anyway.
+    meshes.forEach((mesh, i) => {
+        const { normals, vertexCount } = asset.primitives[i];
+        for (let vertex = 0; vertex < vertexCount; ++vertex) {
+            const normal = new three.Vector3(Math.sin(3 * vertex), 0.8, Math.cos(2 * vertex)).normalize().toArray();
+            normals.set(normal, 3 * vertex);
+            mesh.geometry.attributes.normal.setXYZ(vertex, ...normal);
+        }
+    });
     const again = new Relightable(asset, meshes);
     again.setTransport(transport);
     again.setLighting(parseLighting(lighting));
-    const camera = cameraFor(gltf.scene);
     const perspective = new three.PerspectiveCamera(40, 1, 0.1, 1000);
     perspective.position.copy(camera.position);
     perspective.lookAt(new three.Box3().setFromObject(gltf.scene).getCenter(new three.Vector3()));
