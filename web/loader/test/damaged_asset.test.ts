@@ -209,3 +209,29 @@ describe('meshes that do not fit', () =>
             'parent',
         ],
     ]));
+
+describe('small files that ask for much work', () => {
+    itRefuses(goldenBytes('1.2', 'float32'), [
+        [
+            'attributes that are all the same bytes',
+            (f) => {
+                const { accessors, bufferViews, meshes } = f.json;
+                for (const { primitives } of meshes)
+                    for (const { attributes } of primitives)
+                        for (const name of Object.keys(attributes).filter((key) => /^_PRT_[1-9]/.test(key))) {
+                            bufferViews[accessors[attributes[name]].bufferView].byteLength = 4;
+                            attributes[name] = attributes._PRT_0;
+                        }
+            },
+            'fewer bytes',
+        ],
+        [
+            'buffer views that are all the same bytes',
+            (f) => {
+                for (let i = 0; i < 100; ++i) f.json.bufferViews.push({ buffer: 0, byteLength: f.binary.length });
+                headerOf(f).checksums.push(...Array(100).fill(''));
+            },
+            'over and over',
+        ],
+    ]);
+});

@@ -13,6 +13,8 @@ const kMeshopt = 'EXT_meshopt_compression';
 const kUnderstood = /^(EXT_meshopt_compression|EXT_texture_(webp|avif)|KHR_texture_(transform|basisu)|KHR_materials_\w+|KHR_lights_punctual|OPENPRT_radiance_transfer)$/;
 // A byte of meshopt's is at most so many: runs of 16 equal bytes take two bits.
 const kMostDecodedPerStored = 256;
+// Each is hashed: a small file must not keep a reader busy.
+const kMostViewsOfAByte = 64;
 
 const kComponentBytes: Readonly<Record<number, number>> = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 };
 const kComponentsOfType: Readonly<Record<string, number>> = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
@@ -62,6 +64,9 @@ export class GltfDocument {
         });
         this.views = this.list('bufferViews').map((view) => parseView(view, sizes, buffers));
         this.accessors = this.list('accessors');
+        const bufferBytes = sizes.reduce((sum, size) => sum + size, 0);
+        if (this.storedBytes() > kMostViewsOfAByte * bufferBytes)
+            throw new OpenPrtError('malformed', 'the buffer views of the file are the same bytes over and over');
     }
 
     list(key: string): JsonCursor[] {
@@ -142,6 +147,11 @@ export class GltfDocument {
             elements.set(values.subarray(i * size, (i + 1) * size), index * size);
             before = index;
         }
+    }
+
+    /** What all buffer views hold, once decoded. */
+    viewBytes(): number {
+        return this.views.reduce((sum, view) => sum + view.byteLength, 0);
     }
 
     private storedBytes(): number {

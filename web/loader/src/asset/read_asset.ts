@@ -63,6 +63,9 @@ export function readAssetParts(json: unknown, buffers: readonly (Uint8Array | un
     const vertexCount = counts.reduce((sum, count) => sum + count, 0);
     if (vertexCount !== header.vertexCount)
         throw new OpenPrtError('malformed', `the scene has ${vertexCount} vertices, and transfer is for ${header.vertexCount}`);
+    const bytesPerVertex = header.layers.reduce((sum, layer) => sum + 4 * layer.attributeCount * bytesPerNumber(layer.storage.encoding), 0);
+    if (vertexCount * bytesPerVertex > document.viewBytes())
+        throw new OpenPrtError('malformed', `the file has fewer bytes than the ${bytesPerVertex} that its layers need for each vertex`);
     return { header, primitives: shown.map((primitive, i) => readPrimitive(document, header, primitive, counts[i])) };
 }
 
