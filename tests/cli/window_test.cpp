@@ -25,7 +25,12 @@ constexpr int kFirstRow = 70, kEndRow = 240;
 /// Both come from one rasteriser, which may round otherwise for a window.
 constexpr int kMostCodeValues = 1;
 
-constexpr const char* kScreen = "xvfb-run -a -s '-screen 0 800x600x24' ";
+/// What comes before a command that it is for. Tests that run at once begin to look for a free
+/// number at different ones.
+std::string screen() {
+    return "xvfb-run -a -n " + std::to_string(100 + ::getpid() % 10000) +
+           " -s '-screen 0 800x600x24' ";
+}
 
 class CliWindow : public testing::Test {
   protected:
@@ -86,7 +91,7 @@ int largestDifference(const Rgba8Image& a, const Rgba8Image& b) {
 TEST_F(CliWindow, ShowsWhatIsDrawnOffscreenUnderItsPanels) {
     writeFileAtomically(folder_.path() / "window.json", makeScript("window").dump());
     writeFileAtomically(folder_.path() / "offscreen.json", makeScript("offscreen").dump());
-    const CommandResult window = view(kScreen, "--script window.json");
+    const CommandResult window = view(screen(), "--script window.json");
     ASSERT_EQ(window.exitCode, 0) << window.errors;
     const CommandResult offscreen = view("", "--offscreen --script offscreen.json");
     ASSERT_EQ(offscreen.exitCode, 0) << offscreen.errors;
@@ -115,7 +120,7 @@ TEST_F(CliWindow, WithoutADisplayOneSentenceTellsWhatToDo) {
 TEST_F(CliWindow, WithoutOpenGl43OneSentenceSaysSo) {
     writeFileAtomically(folder_.path() / "one_step.json", std::string("[{}]"));
     const CommandResult result =
-        view(std::string("env MESA_GL_VERSION_OVERRIDE=3.3 ") + kScreen, "--script one_step.json");
+        view(std::string("env MESA_GL_VERSION_OVERRIDE=3.3 ") + screen(), "--script one_step.json");
     EXPECT_EQ(result.exitCode, 1);
     EXPECT_NE(result.errors.find("there is no OpenGL 4.3"), std::string::npos) << result.errors;
 }
