@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "apps/viewer/light_text.h"
+#include "prt/gpu/gl_objects.h"
 
 namespace prt::viewer {
 namespace {
@@ -16,11 +17,8 @@ bool isFile(const LightChoice& light) {
     return !parseLightText(light.source) && std::filesystem::is_regular_file(light.source, error);
 }
 
-GlName makeTexture(const Rgba8Image& picture) {
-    unsigned name = 0;
-    glGenTextures(1, &name);
-    GlName texture(name, [](unsigned given) { glDeleteTextures(1, &given); });
-    glBindTexture(GL_TEXTURE_2D, name);
+GlName uploadPicture(const Rgba8Image& picture) {
+    GlName texture = makeTexture(GL_TEXTURE_2D);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -51,7 +49,7 @@ void chooseLight(ViewState& view, const std::string& file) {
 
 unsigned LightFolder::textureOf(const Thumbnail& thumbnail) {
     const auto [found, isNew] = textures_.try_emplace(thumbnail.source);
-    if (isNew) found->second = makeTexture(*thumbnail.picture);
+    if (isNew) found->second = uploadPicture(*thumbnail.picture);
     return found->second.get();
 }
 

@@ -60,6 +60,26 @@ void requireShaderBuffers(std::size_t largestBytes) {
                     {}, "compress the asset, or draw on the CPU");
 }
 
+GlName makeTexture(unsigned target) {
+    unsigned name = 0;
+    glGenTextures(1, &name);
+    GlName texture(name, [](unsigned given) { glDeleteTextures(1, &given); });
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(target, name);
+    return texture;
+}
+
+void requireTextureSize(int width, int height, const std::string& what, const std::string& hint) {
+    GLint mostTexels = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &mostTexels);
+    if (width > mostTexels || height > mostTexels)
+        throw Error(ErrorCode::limitExceeded,
+                    what + " is " + std::to_string(width) + " × " + std::to_string(height) +
+                        " texels, and the graphics driver takes no more than " +
+                        std::to_string(mostTexels) + " along a side",
+                    {}, hint);
+}
+
 GlName makeSampler(int wrapU, int wrapV, int filter) {
     unsigned name = 0;
     glGenSamplers(1, &name);

@@ -35,6 +35,16 @@ void checkGpuMemory(const std::string& what);
 /// @throws Error        unsupported where vertex shaders read none, limitExceeded for one so large
 void requireShaderBuffers(std::size_t largestBytes);
 
+/// A texture without storage, bound to the first unit.
+///
+/// @param target  in OpenGL's names
+GlName makeTexture(unsigned target);
+
+/// @param what    how an error calls the texture
+/// @param hint    what the user can do
+/// @throws Error  limitExceeded for one wider or higher than the driver takes
+void requireTextureSize(int width, int height, const std::string& what, const std::string& hint);
+
 /// How a texture without levels of detail is read, in OpenGL's names.
 GlName makeSampler(int wrapU, int wrapV, int filter);
 

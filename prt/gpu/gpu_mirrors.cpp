@@ -14,15 +14,6 @@
 namespace prt {
 namespace {
 
-GlName makeTexture(GLenum target) {
-    unsigned name = 0;
-    glGenTextures(1, &name);
-    GlName texture(name, [](unsigned given) { glDeleteTextures(1, &given); });
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(target, name);
-    return texture;
-}
-
 /// All but that of roughness 0, as layers.
 GlName uploadMirrors(const std::vector<Environment>& mirrors) {
     const Image& first = mirrors[1].radiance;

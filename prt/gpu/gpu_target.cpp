@@ -45,11 +45,7 @@ GlName makeRenderbuffer(GLenum format, int width, int height, int sampleCount) {
 }
 
 GlName makeTexture(GLenum format, int width, int height) {
-    unsigned name = 0;
-    glGenTextures(1, &name);
-    GlName texture(name, [](unsigned given) { glDeleteTextures(1, &given); });
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, name);
+    GlName texture = prt::makeTexture(GL_TEXTURE_2D);
     glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
     return texture;
 }

@@ -4,7 +4,6 @@
 
 #include <epoxy/gl.h>
 
-#include "prt/base/error.h"
 #include "prt/gpu/gl_objects.h"
 
 namespace prt {
@@ -24,19 +23,9 @@ constexpr TextureUse kWhiteUse{.wrapU = TextureWrap::clampToEdge,
 
 /// Texels are decoded before they are blended, as the sRGB formats promise.
 GlName uploadImage(const Rgba8Image& image, TexelCurve curve, const std::string& what) {
-    GLint mostTexels = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &mostTexels);
-    if (image.width > mostTexels || image.height > mostTexels)
-        throw Error(ErrorCode::limitExceeded,
-                    "texture " + what + " is " + std::to_string(image.width) + " × " +
-                        std::to_string(image.height) +
-                        " texels, and the graphics driver takes no more than " +
-                        std::to_string(mostTexels) + " along a side",
-                    {}, "make it smaller, or draw on the CPU");
-    unsigned name = 0;
-    glGenTextures(1, &name);
-    GlName texture(name, [](unsigned given) { glDeleteTextures(1, &given); });
-    glBindTexture(GL_TEXTURE_2D, name);
+    requireTextureSize(image.width, image.height, "texture " + what,
+                       "make it smaller, or draw on the CPU");
+    GlName texture = makeTexture(GL_TEXTURE_2D);
     glTexStorage2D(GL_TEXTURE_2D, 1, curve == TexelCurve::srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8,
                    image.width, image.height);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
