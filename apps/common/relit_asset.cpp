@@ -117,18 +117,23 @@ std::vector<ExitRadiance> AssetRelighter::relight(ShownTransport shown, const Li
         return exit;
     }
     std::vector<Vec3f> radiance(exit.size());
-    vectorRelighter(shown).relight(lighting, radiance);
+    relightVectors(shown, lighting, radiance);
     for (std::size_t i = 0; i < exit.size(); ++i)
         exit[i].perBaseColor = radiance[i];
     return exit;
 }
 
-const Relighter& AssetRelighter::vectorRelighter(ShownTransport shown) {
+void AssetRelighter::relightVectors(ShownTransport shown, const Lighting& lighting,
+                                    std::span<Vec3f> radiance) {
     if (!lastOfVectors_ || lastOfVectors_->first != shown) {
         lastOfVectors_.reset();  // before there are two
         lastOfVectors_.emplace(shown, makeRelighter(asset_, path_, shown));
     }
-    return lastOfVectors_->second;
+    const Relighter& relighter = lastOfVectors_->second;
+    parallelFor(radiance.size(), {threadCount_, kRelightPartSize},
+                [&](std::size_t begin, std::size_t end) {
+                    relighter.relight(lighting, begin, radiance.subspan(begin, end - begin));
+                });
 }
 
 const GlossyRelighter& AssetRelighter::glossyRelighter(ShownTransport shown) {

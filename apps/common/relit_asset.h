@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,8 +57,12 @@ class AssetRelighter {
     std::vector<ExitRadiance> relight(ShownTransport shown, const Lighting& lighting,
                                       const Vec3f& eye);
 
-    /// What relights one layer, of vectors or of matrices; kept until another is asked for.
-    const Relighter& vectorRelighter(ShownTransport shown);
+    /// B of every vertex (C7), for surfaces that are taken for diffuse, as relight() has it.
+    ///
+    /// @param radiance  one a vertex, written
+    void relightVectors(ShownTransport shown, const Lighting& lighting, std::span<Vec3f> radiance);
+
+    /// What relights one layer of matrices; kept until another is asked for.
     const GlossyRelighter& glossyRelighter(ShownTransport shown);
 
     /// What relights one layer of matrices: GlossyRelighter, or what is made as it is.

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "prt/base/assert.h"
-#include "prt/parallel/parallel_for.h"
 #include "prt/relight/receiver_transfer.h"
 #include "prt/render/signed_radiance.h"
 
@@ -79,13 +78,7 @@ const GpuRadiance& ShownObject::relightHere(Relit& relit, ShownTransport shown,
         relit.uploaded->upload(relighter.relight(shown, lighting, eye));
     } else {
         relit.vertexRadiance.resize(scene_.vertexCount());
-        const Relighter& vectors = relighter.vectorRelighter(shown);
-        parallelFor(relit.vertexRadiance.size(), {options_.threadCount, kRelightPartSize},
-                    [&](std::size_t begin, std::size_t end) {
-                        vectors.relight(
-                            lighting, begin,
-                            std::span(relit.vertexRadiance).subspan(begin, end - begin));
-                    });
+        relighter.relightVectors(shown, lighting, relit.vertexRadiance);
         relit.uploaded->upload(relit.vertexRadiance);
     }
     return *relit.uploaded;
