@@ -101,6 +101,11 @@ LightSource readEnvironment(const std::string& path, int bandCount, std::optiona
 
 }  // namespace
 
+bool isImageName(const std::string& path) {
+    constexpr std::array<std::string_view, 5> kSuffixes = {".exr", ".hdr", ".png", ".jpg", ".jpeg"};
+    return std::ranges::find(kSuffixes, lowerSuffix(path)) != kSuffixes.end();
+}
+
 std::string sphereMapNames() {
     constexpr std::array kMaps = {SphereMap::latLong,       SphereMap::angularMap,
                                   SphereMap::verticalCross, SphereMap::horizontalCross,

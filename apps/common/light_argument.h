@@ -27,6 +27,9 @@ inline constexpr const char* kLightHelp = R"(LIGHT is one of
                            the same with its sun
   FILE.json                coefficients as `prt light --format json` writes them)";
 
+/// Whether a file's name is that of an image, which may be a light: .exr .hdr .png .jpg .jpeg.
+bool isImageName(const std::string& path);
+
 /// The layouts of images, "lat-long|angular|…".
 std::string sphereMapNames();
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/common/light_argument.h"
 #include "apps/common/parse.h"
 #include "apps/viewer/view_file.h"
 #include "prt/base/error.h"
@@ -24,11 +25,6 @@ FileUse tellJson(const std::string& path) {
     return text.find("\"coefficients\"") == std::string::npos ? FileUse::view : FileUse::light;
 }
 
-bool isImage(const std::filesystem::path& path) {
-    constexpr std::array kSuffixes = {".exr", ".hdr", ".png", ".jpg", ".jpeg"};
-    return std::ranges::find(kSuffixes, cli::lowerSuffix(path.string())) != kSuffixes.end();
-}
-
 /// A folder with the faces of a cube is a light; of any other the first image by name is, beside
 /// which the panel shows the rest.
 std::string findLight(const std::string& path) {
@@ -38,7 +34,7 @@ std::string findLight(const std::string& path) {
     for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
         const fs::path stem = entry.path().stem();
         if (stem == "px" || stem == "posx") return path;
-        if (isImage(entry.path())) images.push_back(entry.path().string());
+        if (cli::isImageName(entry.path())) images.push_back(entry.path().string());
     }
     if (images.empty())
         throw Error(ErrorCode::unsupported, "has no image (.exr .hdr .png .jpg)", path);
@@ -50,7 +46,7 @@ std::optional<FileUse> tellUse(const std::string& path) {
     const std::string suffix = cli::lowerSuffix(path);
     if (suffix == ".json") return tellJson(path);
     if (suffix == ".glb" || suffix == ".gltf") return FileUse::object;
-    return isImage(path) ? std::optional(FileUse::light) : std::nullopt;
+    return cli::isImageName(path) ? std::optional(FileUse::light) : std::nullopt;
 }
 
 /// @param replacesLights  no longer, once a light has

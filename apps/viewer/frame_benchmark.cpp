@@ -1,11 +1,11 @@
 #include "apps/viewer/frame_benchmark.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "apps/viewer/frame_times.h"
 #include "prt/gpu/gl_context.h"
 
 namespace prt::viewer {
@@ -16,22 +16,16 @@ using nlohmann::ordered_json;
 /// How far the light turns from one frame to the next.
 constexpr double kDegreesPerFrame = 3.0;
 
-ordered_json describeTimes(std::vector<double> milliseconds) {
-    std::ranges::sort(milliseconds);
-    // The least time that so many of the frames do not exceed.
-    const auto percentile = [&](double share) {
-        const auto count = static_cast<double>(milliseconds.size());
-        return milliseconds[static_cast<std::size_t>(std::max(std::ceil(share * count), 1.0)) - 1];
-    };
+ordered_json describeTimes(const std::vector<double>& milliseconds) {
     double sum = 0.0;
     for (const double time : milliseconds)
         sum += time;
     return {{"mean", sum / static_cast<double>(milliseconds.size())},
-            {"least", milliseconds.front()},
-            {"median", percentile(0.5)},
-            {"p90", percentile(0.9)},
-            {"p99", percentile(0.99)},
-            {"most", milliseconds.back()}};
+            {"least", findPercentile(milliseconds, 0.0)},
+            {"median", findPercentile(milliseconds, 0.5)},
+            {"p90", findPercentile(milliseconds, 0.9)},
+            {"p99", findPercentile(milliseconds, 0.99)},
+            {"most", findPercentile(milliseconds, 1.0)}};
 }
 
 }  // namespace
@@ -54,9 +48,8 @@ std::vector<double> timeFrames(ViewState view, int frameCount,
 }
 
 std::string reportFrames(const Stage& stage, const FrameSetting& setting,
-                         std::vector<double> milliseconds) {
-    const std::size_t frameCount = milliseconds.size();
-    ordered_json times = describeTimes(std::move(milliseconds));
+                         const std::vector<double>& milliseconds) {
+    ordered_json times = describeTimes(milliseconds);
     const ordered_json report = {{"renderer", setting.renderer},
                                  {"relit_by", stage.relightsOnCard() ? "opengl" : "cpu"},
                                  {"in_window", setting.inWindow},
@@ -66,7 +59,7 @@ std::string reportFrames(const Stage& stage, const FrameSetting& setting,
                                  {"objects", stage.objects().statuses().size()},
                                  {"vertices", stage.vertexCount()},
                                  {"triangles", stage.triangleCount()},
-                                 {"frames", frameCount},
+                                 {"frames", milliseconds.size()},
                                  {"frames_per_second", 1000.0 / times["mean"].get<double>()},
                                  {"milliseconds", std::move(times)}};
     return report.dump(2) + "\n";

@@ -27,7 +27,7 @@ struct FrameSetting {
 
 /// JSON: what was drawn on what, and percentiles of a frame's milliseconds.
 std::string reportFrames(const Stage& stage, const FrameSetting& setting,
-                         std::vector<double> milliseconds);
+                         const std::vector<double>& milliseconds);
 
 /// Both without a window: each frame is relit, drawn, and made ready for a screen.
 ///

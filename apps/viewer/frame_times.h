@@ -5,6 +5,11 @@
 
 namespace prt::viewer {
 
+/// The least time that so large a part of some did not exceed; 0 where there are none.
+///
+/// @param part  0 … 1: 0.5 is the median
+double findPercentile(std::vector<double> milliseconds, double part);
+
 /// How long the last frames took.
 class FrameTimes {
   public:
@@ -16,9 +21,7 @@ class FrameTimes {
     /// The oldest first.
     const std::vector<float>& milliseconds() const { return milliseconds_; }
 
-    /// The least time that so large a part of the frames did not exceed; 0 without frames.
-    ///
-    /// @param part  0 … 1: 0.5 is the median
+    /// findPercentile of them.
     double percentile(double part) const;
 
   private:

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/common/light_argument.h"
+#include "apps/common/parse.h"
 #include "apps/viewer/background_loads.h"
 #include "apps/viewer/lat_long_size.h"
 #include "prt/light/resampling.h"
@@ -64,12 +64,11 @@ struct Part {
 };
 
 Lighting sumLighting(std::span<const Part> parts) {
-    constexpr double kDegree = std::numbers::pi / 180.0;
     Lighting sum(kMaxBandCount);
     for (const Part& part : parts) {
-        const Lighting turned =
-            scale(rotate(part.light->lighting, rotationY(part.azimuthDegrees * kDegree)),
-                  std::exp2(part.stops));
+        const Lighting turned = scale(
+            rotate(part.light->lighting, cli::rotationFromDegrees({0.0, part.azimuthDegrees, 0.0})),
+            std::exp2(part.stops));
         // Coefficients from a file may have fewer bands; those that they lack are 0.
         for (std::size_t i = 0; i < turned.coefficients.size(); ++i)
             sum.coefficients[i] += turned.coefficients[i];

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
 #include <string>
 
 namespace prt::viewer {
@@ -10,5 +13,11 @@ struct LoadingStatus {
     Stage stage = Stage::waiting;
     std::string message{};  ///< why it failed, or what had to be mended; one sentence
 };
+
+/// How many are still to be read.
+inline std::size_t countWaiting(std::span<const LoadingStatus> statuses) {
+    return static_cast<std::size_t>(
+        std::ranges::count(statuses, LoadingStatus::Stage::waiting, &LoadingStatus::stage));
+}
 
 }  // namespace prt::viewer

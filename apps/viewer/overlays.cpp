@@ -34,14 +34,6 @@ void endTile() {
     ImGui::End();
 }
 
-std::size_t countWaiting(const Stage& stage) {
-    const auto count = [](std::span<const LoadingStatus> statuses) {
-        return std::ranges::count(statuses, LoadingStatus::Stage::waiting, &LoadingStatus::stage);
-    };
-    return static_cast<std::size_t>(count(stage.objects().statuses()) +
-                                    count(stage.lights().statuses()));
-}
-
 /// What an asset shows where nothing is asked for is all that it has.
 cli::ShownTransport shownTransport(const Pane& pane, const Stage& stage) {
     if (pane.transport) return *pane.transport;
@@ -74,7 +66,8 @@ void drawMessages(Desk& desk, const Stage& stage) {
     std::erase_if(desk.toasts,
                   [&](const Toast& toast) { return toast.endSeconds <= desk.seconds; });
     const std::vector<std::string> faults = stage.describeFaults();
-    const std::size_t waitingCount = countWaiting(stage);
+    const std::size_t waitingCount =
+        countWaiting(stage.objects().statuses()) + countWaiting(stage.lights().statuses());
     if (faults.empty() && waitingCount == 0 && desk.toasts.empty()) return;
     beginTile("messages", {marginPixels(), ImGui::GetIO().DisplaySize.y - marginPixels()},
               {0.0f, 1.0f}, kMessageWidth);

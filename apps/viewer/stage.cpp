@@ -360,14 +360,11 @@ StageRevision Stage::revision() const {
 
 bool Stage::isBusy() const {
     const Content& content = *content_;
-    const auto isWaiting = [](std::span<const LoadingStatus> statuses) {
-        return std::ranges::find(statuses, LoadingStatus::Stage::waiting, &LoadingStatus::stage) !=
-               statuses.end();
-    };
-    return isWaiting(content.shelf.statuses()) || isWaiting(content.rig.statuses()) ||
+    return countWaiting(content.shelf.statuses()) + countWaiting(content.rig.statuses()) > 0 ||
            (content.showsMirrors && content.mirrors.isBusy()) ||
            (content.tracesReference && content.reference.failure.empty() &&
-            content.reference.pathsPerPixel < ReferenceTracerOptions().mostPathsPerPixel);
+            content.reference.pathsPerPixel <
+                content.tracerOptions(content.options).mostPathsPerPixel);
 }
 
 const ReferencePicture& Stage::reference() const {

@@ -1,15 +1,12 @@
 #include "apps/viewer/thumbnails.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "apps/common/light_argument.h"
-#include "apps/common/parse.h"
 #include "apps/common/picture.h"
 #include "apps/common/text.h"
 #include "apps/viewer/background_loads.h"
@@ -23,11 +20,6 @@ namespace fs = std::filesystem;
 
 using Loads = BackgroundLoads<Rgba8Image>;
 
-bool isImageName(const std::string& path) {
-    constexpr std::array<std::string_view, 5> kSuffixes = {".exr", ".hdr", ".png", ".jpg", ".jpeg"};
-    return std::find(kSuffixes.begin(), kSuffixes.end(), cli::lowerSuffix(path)) != kSuffixes.end();
-}
-
 /// The images of a folder, sorted by name. @throws Error  unreadable
 std::vector<std::string> listImages(const fs::path& folder) {
     std::error_code failure;
@@ -35,7 +27,7 @@ std::vector<std::string> listImages(const fs::path& folder) {
     for (auto entry = fs::directory_iterator(folder, failure);
          !failure && entry != fs::directory_iterator(); entry.increment(failure)) {
         std::error_code unknown;
-        if (isImageName(entry->path()) && entry->is_regular_file(unknown))
+        if (cli::isImageName(entry->path()) && entry->is_regular_file(unknown))
             images.push_back(entry->path());
     }
     if (failure)
