@@ -3,7 +3,8 @@ import { readFileSync } from 'node:fs';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
 import { joinGlb, openGlb } from './support/glb_file.js';
-import { type OpenPage, hasBrowser, openPage } from './support/browser.js';
+import { type OpenPage, hasBrowser } from '../../support/chromium.js';
+import { openPage } from './support/browser.js';
 import { goldenBytes, kEncodings, kVersions } from './support/golden.js';
 import { largestDifference, vectors } from './support/vectors.js';
 
