@@ -1,4 +1,4 @@
-import { BufferAttribute, type BufferGeometry, type DataTexture, DynamicDrawUsage, type Material, type Mesh } from 'three';
+import { BufferAttribute, type BufferGeometry, type DataTexture, DynamicDrawUsage, type Material, type Mesh, type Object3D } from 'three';
 
 import { type Layer, type Transport, isGlossy } from './asset/layer.js';
 import type { Asset, AssetPrimitive } from './asset/read_asset.js';
@@ -47,8 +47,9 @@ export class Relightable {
     constructor(
         readonly asset: Asset,
         meshes: readonly Mesh<BufferGeometry>[],
-        { mode = 'gpu', gloss = true }: RelightOptions = {},
+        private readonly options: RelightOptions = {},
     ) {
+        const { mode = 'gpu', gloss = true } = options;
         this.isOnCpu = mode === 'cpu';
         this.hasGloss = gloss;
         this.lighting = darkness(this.bandCount);
@@ -84,6 +85,18 @@ export class Relightable {
     setLighting(lighting: Lighting): void {
         this.lighting = lighting;
         this.light();
+    }
+
+    /** The same asset once more, to be lit and shown by itself. @param copy  what `root.clone()` made of an object above the meshes */
+    cloneFor(root: Object3D, copy: Object3D): Relightable {
+        const originals = listObjects(root);
+        const copies = listObjects(copy);
+        const meshes = this.shown.map(({ mesh, source }) => {
+            const twin = copies[originals.indexOf(mesh)] as Mesh<BufferGeometry>;
+            twin.material = source;
+            return twin;
+        });
+        return new Relightable(this.asset, meshes, this.options);
     }
 
     /** Frees what was made for the GPU, and gives the meshes their own materials back. */
@@ -166,4 +179,11 @@ export class Relightable {
             attribute.needsUpdate = true;
         }
     }
+}
+
+/** An object and all below it, in an order that its clones have too. */
+function listObjects(root: Object3D): Object3D[] {
+    const objects: Object3D[] = [];
+    root.traverse((object) => objects.push(object));
+    return objects;
 }
