@@ -1,3 +1,40 @@
-import { readPageData } from './page_data.js';
+import './page.css';
 
-document.title = readPageData().assets.map(({ name }) => name).join(', ') || document.title;
+import { keepInAddress } from './address.js';
+import { LightGesture } from './gestures.js';
+import { isSoftwareRasteriser, openGraphics } from './graphics.js';
+import { takeLight } from './lights.js';
+import { Messages } from './messages.js';
+import { readPageData } from './page_data.js';
+import { parseHash } from './view_state.js';
+import { Viewer } from './viewer.js';
+
+const kNoGraphics = 'This page draws with WebGL2, which this browser does not have or has turned off.';
+const kNoData = '`prt web ASSET -o page.html` fills this page. Until then it shows what is dropped on it: an asset, and a light.';
+
+function elementOf<Kind extends HTMLElement>(id: string): Kind {
+    return document.getElementById(id) as Kind;
+}
+
+function start(): void {
+    const messages = new Messages(elementOf('message-box'), elementOf('message'), elementOf('message-dismiss'));
+    const canvas = elementOf<HTMLCanvasElement>('picture');
+    document.documentElement.dataset.state = 'loading';
+    const gl = openGraphics(canvas);
+    if (!gl) {
+        document.documentElement.dataset.state = 'failed';
+        messages.say(kNoGraphics);
+        return;
+    }
+    const data = readPageData();
+    document.title = data.assets.map(({ name }) => name).join(', ') || document.title;
+    const asked = new URLSearchParams(location.search).get('mode');
+    const mode = asked === 'cpu' || asked === 'gpu' ? asked : isSoftwareRasteriser(gl) ? 'cpu' : 'gpu';
+    const viewer = new Viewer(canvas, gl, data, data.lights.map(takeLight), mode, messages);
+    viewer.replace(parseHash(location.hash));
+    keepInAddress(viewer);
+    new LightGesture(canvas, viewer);
+    if (data.assets.length === 0) messages.say(kNoData);
+}
+
+start();

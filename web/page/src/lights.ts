@@ -1,0 +1,45 @@
+import { type Lighting, type Mat3, applyWindow, deringingFactors, parseLighting, rotateLighting, rotationXyz, windowFactors, withBands } from 'openprt-three';
+
+import { chooseExposure } from './exposure.js';
+import { type LightPicture, readPicture } from './light_picture.js';
+import { type LightEntry, takeBytes } from './page_data.js';
+import type { WindowName } from './view_state.js';
+
+/** A light that can be chosen. */
+export class Light {
+    private stops?: number;
+    private readonly windowed = new Map<string, Lighting>();
+
+    constructor(
+        readonly name: string,
+        readonly lighting: Lighting,
+        readonly picture: LightPicture,
+    ) {}
+
+    /** Under which it is neither too bright nor too dark, however it is turned. */
+    get exposureStops(): number {
+        return (this.stops ??= chooseExposure(this.lighting));
+    }
+
+    /** The first bands of it, smoothed, and then turned. */
+    prepare(bandCount: number, window: WindowName, rotation: Mat3): Lighting {
+        const key = `${bandCount} ${window}`;
+        const windowed = this.windowed.get(key) ?? smooth(withBands(this.lighting, bandCount), window);
+        this.windowed.set(key, windowed);
+        return rotateLighting(windowed, rotation);
+    }
+}
+
+function smooth(lighting: Lighting, window: WindowName): Lighting {
+    return applyWindow(lighting, window === 'auto' ? deringingFactors(lighting) : windowFactors(window, lighting.bandCount));
+}
+
+/** The turn that the state tells of: about x, and then about +y. */
+export function rotationOf({ tiltDegrees, turnDegrees }: { tiltDegrees: number; turnDegrees: number }): Mat3 {
+    return rotationXyz(tiltDegrees, turnDegrees, 0);
+}
+
+/** The light that the page brings along at an index. */
+export function takeLight({ name, lighting, picture }: LightEntry, index: number): Light {
+    return new Light(name, parseLighting(lighting), readPicture(takeBytes(`prt-light-${index}`), picture.width, picture.height));
+}

@@ -1,0 +1,75 @@
+import type { Mat3 } from 'openprt-three';
+import { WebGLRenderer } from 'three';
+
+import { Background } from './background.js';
+import type { OrbitCamera } from './camera.js';
+import type { Light } from './lights.js';
+import { Pane } from './pane.js';
+import { type ToneCurve, kToneMappings } from './tone_curve.js';
+
+const kMostPixelRatio = 2;
+
+/** How the panes become a picture. */
+export interface Shot {
+    light: Light;
+    rotation: Mat3;
+    exposureStops: number;
+    tone: ToneCurve;
+    background: boolean;
+    /** Where the second pane begins, 0 to 1 of the width; absent: nowhere. */
+    split?: number | undefined;
+}
+
+/** The canvas: two panes, side by side where it is split, and the light behind them. */
+export class Picture {
+    readonly first = new Pane(false);
+    readonly other = new Pane(true);
+    private readonly background = new Background();
+    private readonly renderer: WebGLRenderer;
+
+    constructor(
+        private readonly canvas: HTMLCanvasElement,
+        private readonly gl: WebGL2RenderingContext,
+    ) {
+        this.renderer = new WebGLRenderer({ canvas, context: gl });
+        this.renderer.autoClear = false;
+        this.renderer.setClearColor(0x000000, 1);
+    }
+
+    draw(shot: Shot, orbit: OrbitCamera): void {
+        const { renderer, canvas } = this;
+        const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+        if (width === 0 || height === 0) return;
+        const ratio = Math.min(devicePixelRatio, kMostPixelRatio);
+        if (canvas.width !== Math.floor(width * ratio) || canvas.height !== Math.floor(height * ratio)) {
+            renderer.setPixelRatio(ratio);
+            renderer.setSize(width, height, false);
+        }
+        orbit.setAspectRatio(width / height);
+        renderer.toneMapping = kToneMappings[shot.tone];
+        renderer.toneMappingExposure = 2 ** shot.exposureStops;
+        if (shot.background) {
+            this.background.set(shot.light.picture, shot.rotation);
+            this.background.look(orbit.camera);
+        }
+        renderer.setScissorTest(false);
+        renderer.clear();
+        if (shot.background) renderer.render(this.background.scene, orbit.camera);
+        if (shot.split === undefined) {
+            renderer.render(this.first.scene, orbit.camera);
+            return;
+        }
+        const middle = Math.round(shot.split * width);
+        renderer.setScissorTest(true);
+        renderer.setScissor(0, 0, middle, height);
+        renderer.render(this.first.scene, orbit.camera);
+        renderer.setScissor(middle, 0, width - middle, height);
+        renderer.render(this.other.scene, orbit.camera);
+    }
+
+    /** Waits until all that was asked of the GPU is done. */
+    finish(): void {
+        const { gl } = this;
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    }
+}

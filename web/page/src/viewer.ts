@@ -1,0 +1,167 @@
+import { AssetShelf } from './asset_shelf.js';
+import { OrbitCamera } from './camera.js';
+import { type Light, rotationOf } from './lights.js';
+import type { LoadedAsset, Mode } from './load_asset.js';
+import { type Messages, sentenceOf } from './messages.js';
+import type { PageData } from './page_data.js';
+import { Picture } from './picture.js';
+import { type SideName, type ViewState, kDefaultState, sideOf } from './view_state.js';
+
+/** How far the page is, for whoever drives it: data-state of the document's element, and data-frame, which counts the frames. */
+type Progress = 'loading' | 'ready' | 'failed';
+
+/** Shows what the state says, and draws only when that has changed. */
+export class Viewer {
+    state: ViewState = { ...kDefaultState };
+    readonly picture: Picture;
+    readonly shelf: AssetShelf;
+    readonly camera: OrbitCamera;
+    private readonly broken = new Set<number>();
+    private readonly listeners: (() => void)[] = [];
+    private lastShown: number | undefined;
+    private lookedAt: LoadedAsset | undefined;
+    private frameRequest = 0;
+    private frameCount = 0;
+    private isLost = false;
+
+    constructor(
+        canvas: HTMLCanvasElement,
+        gl: WebGL2RenderingContext,
+        readonly data: PageData,
+        readonly lights: Light[],
+        readonly mode: Mode,
+        private readonly messages: Messages,
+    ) {
+        this.picture = new Picture(canvas, gl);
+        this.shelf = new AssetShelf(data.assets, mode);
+        this.camera = new OrbitCamera(canvas, (eye, target) => this.change({ eye, target }));
+        new ResizeObserver(() => this.refresh()).observe(canvas);
+        this.watchContext(canvas);
+    }
+
+    /** Tells of every frame that was drawn. */
+    onFrame(listener: () => void): void {
+        this.listeners.push(listener);
+    }
+
+    change(change: Partial<ViewState>): void {
+        this.state = { ...this.state, ...change };
+        this.refresh();
+    }
+
+    changeSide(name: SideName, change: ViewState['first']): void {
+        this.change({ [name]: { ...this.state[name], ...change } });
+    }
+
+    /** Shows the asset from where it wants to be seen. */
+    resetCamera(): void {
+        this.lookedAt = undefined;
+        this.change({ eye: undefined, target: undefined });
+    }
+
+    /** Takes the whole state from elsewhere. */
+    replace(state: ViewState): void {
+        this.lookedAt = undefined;
+        this.change({ eye: undefined, target: undefined, exposureStops: undefined, split: undefined, ...state });
+    }
+
+    /** What a half shows, with an index that there is. */
+    assetIndexOf(name: SideName): number {
+        const index = sideOf(this.state, name).asset ?? 0;
+        return index < this.shelf.names.length && !this.broken.has(index) ? index : this.fallback();
+    }
+
+    get light(): Light | undefined {
+        return this.lights[this.state.light] ?? this.lights[0];
+    }
+
+    get exposureStops(): number {
+        return this.state.exposureStops ?? this.light?.exposureStops ?? 0;
+    }
+
+    get progress(): Progress {
+        return document.documentElement.dataset.state as Progress;
+    }
+
+    /** Draws soon, once what is to be seen is there. */
+    refresh(): void {
+        if (this.progress !== 'failed') this.tell('loading');
+        if (this.frameRequest === 0) this.frameRequest = requestAnimationFrame(() => this.update());
+    }
+
+    private update(): void {
+        this.frameRequest = 0;
+        if (this.isLost || this.shelf.names.length === 0) return;
+        const names: SideName[] = this.state.split === undefined ? ['first'] : ['first', 'other'];
+        const indices = names.map((name) => this.assetIndexOf(name));
+        const missing = indices.find((index) => index >= 0 && !this.shelf.find(index));
+        if (indices.includes(-1)) this.tell('failed');
+        else if (missing !== undefined) void this.load(missing);
+        else this.draw(indices);
+    }
+
+    private async load(index: number): Promise<void> {
+        try {
+            await this.shelf.load(index);
+        } catch (error) {
+            this.broken.add(index);
+            this.messages.say(sentenceOf(this.shelf.names[index], error));
+        }
+        this.refresh();
+    }
+
+    /** Draws now. @param indices  of one or two assets, which are loaded */
+    private draw(indices: readonly number[]): void {
+        const { picture, light, state } = this;
+        if (!light) return;
+        const [first, other] = indices.map((index) => this.shelf.find(index)!);
+        const rotation = rotationOf(state);
+        picture.first.show(first);
+        picture.first.relight(sideOf(state, 'first'), light, rotation);
+        if (other) {
+            picture.other.show(other);
+            picture.other.relight(sideOf(state, 'other'), light, rotation);
+        } else {
+            picture.other.clear();
+        }
+        this.shelf.keepOnly(indices);
+        this.lookAt(first, indices[0]);
+        picture.draw({ light, rotation, exposureStops: this.exposureStops, tone: state.tone, background: state.background, split: state.split }, this.camera);
+        document.documentElement.dataset.frame = String(++this.frameCount);
+        this.tell('ready');
+        for (const listener of this.listeners) listener();
+    }
+
+    /** Another asset is seen from where it wants to be seen, unless it is the first and the address tells otherwise. */
+    private lookAt(asset: LoadedAsset, index: number): void {
+        if (asset === this.lookedAt) return;
+        if (this.lastShown !== undefined && this.lastShown !== index) this.state = { ...this.state, eye: undefined, target: undefined };
+        this.camera.look(asset, this.state);
+        this.lookedAt = asset;
+        this.lastShown = index;
+    }
+
+    /** The asset that is shown instead of one that cannot be; −1: none. */
+    private fallback(): number {
+        const indices = [this.lastShown ?? 0, ...this.shelf.names.keys()];
+        return indices.find((index) => index < this.shelf.names.length && !this.broken.has(index)) ?? -1;
+    }
+
+    private tell(progress: Progress): void {
+        document.documentElement.dataset.state = progress;
+    }
+
+    private watchContext(canvas: HTMLCanvasElement): void {
+        const kLost = 'The browser has taken the graphics away, and the picture comes back when it gives them back.';
+        canvas.addEventListener('webglcontextlost', () => {
+            this.isLost = true;
+            this.tell('loading');
+            this.messages.say(kLost);
+        });
+        canvas.addEventListener('webglcontextrestored', () => {
+            this.isLost = false;
+            this.messages.clear(kLost);
+            this.refresh();
+        });
+    }
+}
