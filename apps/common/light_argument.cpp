@@ -117,6 +117,11 @@ std::string sphereMapNames() {
     return fmt::format("{}", fmt::join(names, "|"));
 }
 
+std::string nameLight(const std::string& argument) {
+    if (!fs::exists(argument)) return argument;
+    return fs::weakly_canonical(argument).stem().string();
+}
+
 LightSource loadLight(const std::string& argument, int bandCount, std::optional<SphereMap> map,
                       const ImageLimits& limits) {
     const bool isUniform = argument.starts_with(kUniformPrefix);

@@ -39,6 +39,9 @@ struct Sun {
     double halfAngleRadians = 0.0;
 };
 
+/// What people call a LIGHT argument: "museum" for lights/museum.exr, else the argument itself.
+std::string nameLight(const std::string& argument);
+
 /// What a LIGHT argument stands for.
 struct LightSource {
     Lighting lighting;

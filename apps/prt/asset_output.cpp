@@ -10,13 +10,17 @@
 
 namespace prt::cli {
 
+void refuseOverwriting(const std::string& output, const std::string& source,
+                       const std::string& sourceWords, const std::string& hint) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(source, output, ignored))
+        throw Error(ErrorCode::invalidOption, "would overwrite " + sourceWords, output, hint);
+}
+
 void checkAssetOutput(const std::string& output, const std::string& source,
                       const std::string& sourceWords) {
     requireSuffix(output, ".glb");
-    std::error_code ignored;
-    if (std::filesystem::equivalent(source, output, ignored))
-        throw Error(ErrorCode::invalidOption, "would overwrite " + sourceWords, output,
-                    "choose another name, such as scene.prt.glb");
+    refuseOverwriting(output, source, sourceWords, "choose another name, such as scene.prt.glb");
     const DeferInterrupts whileProbing;
     checkWritable(output);
 }

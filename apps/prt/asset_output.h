@@ -4,6 +4,11 @@
 
 namespace prt::cli {
 
+/// @param sourceWords  what the source is: "the scene it is baked from"
+/// @throws Error       invalidOption if the output is the file that it is made from
+void refuseOverwriting(const std::string& output, const std::string& source,
+                       const std::string& sourceWords, const std::string& hint);
+
 /// Checks that an asset can be written, so that long work does not fail at its end.
 ///
 /// @param source       the file that it is made from, which must not be overwritten

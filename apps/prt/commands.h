@@ -13,6 +13,7 @@ void addLightCommand(CLI::App& app);
 void addBrdfCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
 void addExportCommand(CLI::App& app);
+void addWebCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
 void addViewCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);

@@ -61,9 +61,8 @@ std::optional<Exposure> parseExposure(std::string_view text) {
 }
 
 /// A light in a file's name: "museum" of lights/museum.exr, "sun-60-40-10" of sun:60,40,10.
-std::string nameLight(const std::string& light) {
-    std::string name = light;
-    if (fs::exists(light)) name = fs::weakly_canonical(light).stem().string();
+std::string nameLightInFiles(const std::string& light) {
+    std::string name = nameLight(light);
     for (char& c : name)
         if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-' && c != '_')
             c = '-';
@@ -77,7 +76,7 @@ std::vector<std::string> nameOutputs(const ExportArguments& arguments) {
     std::vector<std::string> outputs;
     for (const std::string& light : arguments.lights) {
         fs::path output = whole;
-        output.replace_filename(whole.stem().string() + "-" + nameLight(light) +
+        output.replace_filename(whole.stem().string() + "-" + nameLightInFiles(light) +
                                 whole.extension().string());
         if (std::ranges::find(outputs, output.string()) != outputs.end())
             throw Error(ErrorCode::invalidOption, "would be written for two lights",

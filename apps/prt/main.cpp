@@ -25,7 +25,8 @@ constexpr const char* kDescription =
   prt bake teapot.glb -o teapot.prt.glb    once: rays become transfer coefficients
   prt render teapot.prt.glb --light sun:60,45,10 -o teapot.png
                                            as often as you like, under any light
-  prt view teapot.prt.glb                  in a window: turn the light, and see it at once)";
+  prt view teapot.prt.glb                  in a window: turn the light, and see it at once
+  prt web teapot.prt.glb -o teapot.html    the same in one page, for anyone with a browser)";
 
 constexpr const char* kFooter =
     R"(SCENE is a .gltf, .glb, .obj or .ply file. LIGHT is an environment image, uniform:r,g,b,
@@ -76,6 +77,7 @@ int runCommand(int argumentCount, char** arguments) {
     prt::cli::addBrdfCommand(app);
     prt::cli::addRenderCommand(app);
     prt::cli::addExportCommand(app);
+    prt::cli::addWebCommand(app);
     prt::cli::addCompareCommand(app);
     prt::cli::addViewCommand(app);
     prt::cli::addInfoCommand(app);

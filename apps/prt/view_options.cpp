@@ -7,7 +7,8 @@
 #include "prt/scene/framing.h"
 
 namespace prt::cli {
-void addViewOptions(CLI::App& command, ViewArguments& view) {
+
+void addCameraOptions(CLI::App& command, ViewArguments& view) {
     CLI::Option* camera = command.add_option(
         "--camera", view.camera, "a camera of the scene [its first, else all of it in view]");
     camera->type_name("NAME");
@@ -21,6 +22,10 @@ void addViewOptions(CLI::App& command, ViewArguments& view) {
     eye->needs(target)->excludes(camera);
     target->needs(eye);
     fov->needs(eye);
+}
+
+void addViewOptions(CLI::App& command, ViewArguments& view) {
+    addCameraOptions(command, view);
     addParsedOption(command, "--size", view.size, parsePictureSize, "WxH", "of the picture, pixels")
         ->default_str(fmt::format("{}x{}", view.size.width, view.size.height));
 }

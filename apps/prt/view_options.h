@@ -19,7 +19,10 @@ struct ViewArguments {
     PictureSize size{};
 };
 
-/// --camera, --eye, --target, --fov and --size.
+/// --camera, --eye, --target and --fov.
+void addCameraOptions(CLI::App& command, ViewArguments& view);
+
+/// The same and --size.
 void addViewOptions(CLI::App& command, ViewArguments& view);
 
 /// --rotate

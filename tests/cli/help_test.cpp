@@ -15,7 +15,7 @@ TEST(CliHelp, EverySubcommandHasAnExampleAndFitsTheTerminal) {
     const TemporaryFolder folder;
     const std::string overview = runPrt(folder, {"--help"}).output;
     for (const std::string command : {"scene", "bake", "merge", "compress", "light", "brdf",
-                                      "render", "export", "compare", "info", "check"}) {
+                                      "render", "export", "web", "compare", "info", "check"}) {
         EXPECT_NE(overview.find("\n  " + command + " "), std::string::npos) << overview;
         const CommandResult result = runPrt(folder, {command, "--help"});
         EXPECT_EQ(result.exitCode, 0);
