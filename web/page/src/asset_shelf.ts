@@ -11,6 +11,8 @@ interface ShelvedAsset {
 
 /** The assets that can be chosen, of which only those that are shown are parsed. */
 export class AssetShelf {
+    /** How long the last took to read. */
+    loadMilliseconds = 0;
     private readonly assets: ShelvedAsset[];
 
     constructor(entries: readonly AssetEntry[], private readonly mode: Mode) {
@@ -52,8 +54,11 @@ export class AssetShelf {
     }
 
     private async parse(asset: ShelvedAsset): Promise<LoadedAsset> {
+        const begin = performance.now();
         try {
-            return (asset.loaded = await loadAsset(asset.takeBytes(), this.mode, asset.view));
+            asset.loaded = await loadAsset(asset.takeBytes(), this.mode, asset.view);
+            this.loadMilliseconds = performance.now() - begin;
+            return asset.loaded;
         } catch (error) {
             delete asset.loading;
             throw error;

@@ -1,11 +1,15 @@
 import './page.css';
 
 import { keepInAddress } from './address.js';
+import { runBenchmark, showBenchmark } from './benchmark.js';
+import { Divider } from './divider.js';
+import { FileDrop } from './file_drop.js';
 import { LightGesture } from './gestures.js';
 import { isSoftwareRasteriser, openGraphics } from './graphics.js';
 import { takeLight } from './lights.js';
 import { Messages } from './messages.js';
 import { readPageData } from './page_data.js';
+import { Panel } from './panel.js';
 import { parseHash } from './view_state.js';
 import { Viewer } from './viewer.js';
 
@@ -28,13 +32,17 @@ function start(): void {
     }
     const data = readPageData();
     document.title = data.assets.map(({ name }) => name).join(', ') || document.title;
-    const asked = new URLSearchParams(location.search).get('mode');
+    const query = new URLSearchParams(location.search);
+    const asked = query.get('mode');
     const mode = asked === 'cpu' || asked === 'gpu' ? asked : isSoftwareRasteriser(gl) ? 'cpu' : 'gpu';
     const viewer = new Viewer(canvas, gl, data, data.lights.map(takeLight), mode, messages);
     viewer.replace(parseHash(location.hash));
     keepInAddress(viewer);
-    new LightGesture(canvas, viewer);
+    new Divider(canvas, viewer);
+    const files = new FileDrop(viewer, messages);
+    new Panel(viewer, new LightGesture(canvas, viewer), () => files.ask()).refresh();
     if (data.assets.length === 0) messages.say(kNoData);
+    else if (query.has('benchmark')) void runBenchmark(viewer, gl).then(showBenchmark);
 }
 
 start();

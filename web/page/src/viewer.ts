@@ -18,6 +18,7 @@ export class Viewer {
     readonly camera: OrbitCamera;
     private readonly broken = new Set<number>();
     private readonly listeners: (() => void)[] = [];
+    private readonly waiting: ((beginMilliseconds: number) => void)[] = [];
     private lastShown: number | undefined;
     private lookedAt: LoadedAsset | undefined;
     private frameRequest = 0;
@@ -42,6 +43,11 @@ export class Viewer {
     /** Tells of every frame that was drawn. */
     onFrame(listener: () => void): void {
         this.listeners.push(listener);
+    }
+
+    /** Waits for a frame. @returns  when it was begun, as performance.now() tells */
+    nextFrame(): Promise<number> {
+        return new Promise((resolve) => this.waiting.push(resolve));
     }
 
     change(change: Partial<ViewState>): void {
@@ -71,8 +77,13 @@ export class Viewer {
         return index < this.shelf.names.length && !this.broken.has(index) ? index : this.fallback();
     }
 
+    /** Of the light that is shown. */
+    get lightIndex(): number {
+        return this.state.light < this.lights.length ? this.state.light : 0;
+    }
+
     get light(): Light | undefined {
-        return this.lights[this.state.light] ?? this.lights[0];
+        return this.lights[this.lightIndex];
     }
 
     get exposureStops(): number {
@@ -114,6 +125,7 @@ export class Viewer {
     private draw(indices: readonly number[]): void {
         const { picture, light, state } = this;
         if (!light) return;
+        const begin = performance.now();
         const [first, other] = indices.map((index) => this.shelf.find(index)!);
         const rotation = rotationOf(state);
         picture.first.show(first);
@@ -130,6 +142,7 @@ export class Viewer {
         document.documentElement.dataset.frame = String(++this.frameCount);
         this.tell('ready');
         for (const listener of this.listeners) listener();
+        for (const resolve of this.waiting.splice(0)) resolve(begin);
     }
 
     /** Another asset is seen from where it wants to be seen, unless it is the first and the address tells otherwise. */

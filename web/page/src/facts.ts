@@ -1,0 +1,25 @@
+import type { Layer, Relightable } from 'openprt-three';
+
+import { chooseShown } from './pane.js';
+import type { Side } from './view_state.js';
+
+const kBytes = { float32: 4, unorm16: 2, unorm8: 1 };
+const kEncodings = { float32: 'floats', unorm16: '16 bits', unorm8: '8 bits' };
+
+/** What an asset stores of the transport that is shown, in a line. */
+export function describeAsset(relightable: Relightable, side: Side): string {
+    const { asset, bandCount } = relightable;
+    const { transport } = chooseShown(relightable, side);
+    const layer = asset.header.layers.find((candidate) => candidate.transport === transport)!;
+    return [
+        `${asset.header.vertexCount.toLocaleString('en')} vertices`,
+        `${layer.numberCount * kBytes[layer.storage.encoding]} bytes a vertex`,
+        describeStorage(layer),
+        `${bandCount} bands`,
+    ].join(' · ');
+}
+
+function describeStorage({ clusters, storage }: Layer): string {
+    const encoding = kEncodings[storage.encoding];
+    return clusters ? `${clusters.componentCounts.length} clusters, ${encoding}` : encoding;
+}
