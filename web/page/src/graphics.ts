@@ -1,6 +1,6 @@
 /** WebGL2 of a canvas, or nothing where the browser has none. */
 export function openGraphics(canvas: HTMLCanvasElement): WebGL2RenderingContext | null {
-    return canvas.getContext('webgl2', { antialias: !location.search.includes("noaa"), alpha: false, powerPreference: 'high-performance' });
+    return canvas.getContext('webgl2', { antialias: true, alpha: false, powerPreference: 'high-performance' });
 }
 
 /** Who draws. */

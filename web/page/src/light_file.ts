@@ -20,8 +20,8 @@ interface Environment {
 
 /** What three.js's loaders return. */
 interface TexData {
-    width?: number;
-    height?: number;
+    width?: number | undefined;
+    height?: number | undefined;
     data?: unknown;
 }
 

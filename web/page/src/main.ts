@@ -35,6 +35,7 @@ function start(): void {
     const query = new URLSearchParams(location.search);
     const asked = query.get('mode');
     const mode = asked === 'cpu' || asked === 'gpu' ? asked : isSoftwareRasteriser(gl) ? 'cpu' : 'gpu';
+    document.body.classList.toggle('slow', mode === 'cpu'); // what is behind the panel is not blurred then
     const viewer = new Viewer(canvas, gl, data, data.lights.map(takeLight), mode, messages);
     viewer.replace(parseHash(location.hash));
     keepInAddress(viewer);

@@ -8,6 +8,7 @@ import { Pane } from './pane.js';
 import { type ToneCurve, kToneMappings } from './tone_curve.js';
 
 const kMostPixelRatio = 2;
+const kCoarsePixelRatio = 0.5;
 
 /** How the panes become a picture. */
 export interface Shot {
@@ -18,6 +19,8 @@ export interface Shot {
     background: boolean;
     /** Where the second pane begins, 0 to 1 of the width; absent: nowhere. */
     split?: number | undefined;
+    /** Of fewer pixels, while things move and the CPU draws. */
+    isCoarse: boolean;
 }
 
 /** The canvas: two panes, side by side where it is split, and the light behind them. */
@@ -40,7 +43,7 @@ export class Picture {
         const { renderer, canvas } = this;
         const [width, height] = [canvas.clientWidth, canvas.clientHeight];
         if (width === 0 || height === 0) return;
-        const ratio = Math.min(devicePixelRatio, kMostPixelRatio);
+        const ratio = shot.isCoarse ? kCoarsePixelRatio : Math.min(devicePixelRatio, kMostPixelRatio);
         if (canvas.width !== Math.floor(width * ratio) || canvas.height !== Math.floor(height * ratio)) {
             renderer.setPixelRatio(ratio);
             renderer.setSize(width, height, false);

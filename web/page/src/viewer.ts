@@ -10,6 +10,9 @@ import { type SideName, type ViewState, kDefaultState, sideOf } from './view_sta
 /** How far the page is, for whoever drives it: data-state of the document's element, and data-frame, which counts the frames. */
 type Progress = 'loading' | 'ready' | 'failed';
 
+// Between the frames of a movement pass fewer.
+const kRestMilliseconds = 200;
+
 /** Shows what the state says, and draws only when that has changed. */
 export class Viewer {
     state: ViewState = { ...kDefaultState };
@@ -24,6 +27,8 @@ export class Viewer {
     private frameRequest = 0;
     private frameCount = 0;
     private isLost = false;
+    private restTimer = 0;
+    private isAtRest = true;
 
     constructor(
         canvas: HTMLCanvasElement,
@@ -97,6 +102,7 @@ export class Viewer {
     /** Draws soon, once what is to be seen is there. */
     refresh(): void {
         if (this.progress !== 'failed') this.tell('loading');
+        this.isAtRest = this.mode === 'gpu' || this.frameCount === 0;
         if (this.frameRequest === 0) this.frameRequest = requestAnimationFrame(() => this.update());
     }
 
@@ -138,11 +144,21 @@ export class Viewer {
         }
         this.shelf.keepOnly(indices);
         this.lookAt(first, indices[0]);
-        picture.draw({ light, rotation, exposureStops: this.exposureStops, tone: state.tone, background: state.background, split: state.split }, this.camera);
+        picture.draw({ light, rotation, exposureStops: this.exposureStops, tone: state.tone, background: state.background, split: state.split, isCoarse: !this.isAtRest }, this.camera);
         document.documentElement.dataset.frame = String(++this.frameCount);
-        this.tell('ready');
+        if (this.isAtRest) this.tell('ready');
+        else this.drawFineSoon();
         for (const listener of this.listeners) listener();
         for (const resolve of this.waiting.splice(0)) resolve(begin);
+    }
+
+    /** Draws in full once nothing moves. */
+    private drawFineSoon(): void {
+        clearTimeout(this.restTimer);
+        this.restTimer = window.setTimeout(() => {
+            this.isAtRest = true;
+            if (this.frameRequest === 0) this.frameRequest = requestAnimationFrame(() => this.update());
+        }, kRestMilliseconds);
     }
 
     /** Another asset is seen from where it wants to be seen, unless it is the first and the address tells otherwise. */
