@@ -171,6 +171,28 @@ class Resampler {
     std::vector<SpherePlace> places_;  // of the texel being visited
 };
 
+/// A lat-long map whose texels are blocks of the source's: the exact mean of each.
+Image averageBlocks(const Image& source, int blockSize) {
+    const int width = source.width / blockSize;
+    const int height = source.height / blockSize;
+    Image means(width, height);
+    for (int y = 0; y < height; ++y) {
+        std::vector<Vec3d> sums(static_cast<std::size_t>(width), Vec3d(0.0));
+        double solidAngle = 0.0;  // of the block
+        for (int row = y * blockSize; row < (y + 1) * blockSize; ++row) {
+            // All texels of a row are as large.
+            const double ofTexel =
+                sphereTexel(SphereMap::latLong, source.width, source.height, 0, row).solidAngle;
+            solidAngle += ofTexel * blockSize;
+            for (int x = 0; x < source.width; ++x)
+                sums[static_cast<std::size_t>(x / blockSize)] += Vec3d(source.at(x, row)) * ofTexel;
+        }
+        for (int x = 0; x < width; ++x)
+            means.at(x, y) = Vec3f(sums[static_cast<std::size_t>(x)] / solidAngle);
+    }
+    return means;
+}
+
 /// With texels as fine as those in the middle of the source's cells.
 int findLatLongHeight(const Environment& source) {
     const int height = source.radiance.height;
@@ -185,9 +207,11 @@ Environment rotate(const Environment& source, const Mat3d& rotation, SphereMap m
                    int height) {
     PRT_ASSERT(fitsSphereMap(map, width, height), "the result has the shape of its map");
     const Layout from = layoutOf(source);
-    const bool staysTheSame =
-        rotation == Mat3d() && from.map == map && from.width == width && from.height == height;
-    if (staysTheSame) return source;
+    if (rotation == Mat3d() && from.map == map) {
+        if (from.width == width && from.height == height) return source;
+        if (map == SphereMap::latLong && from.width % width == 0)
+            return {map, averageBlocks(source.radiance, from.width / width)};
+    }
     return {map, Resampler(source, {map, width, height}, rotation).resample()};
 }
 

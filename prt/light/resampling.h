@@ -10,7 +10,8 @@ namespace prt {
 /// Where texels grow, each becomes the mean of the radiance over its solid angle; where they
 /// shrink, radiance lies bilinearly between the centres of the source. Flux is kept: what a source
 /// texel gives to all texels together is scaled to its solid angle, so that a sun of one texel
-/// neither gets lost nor grows, and ∫ L dω changes by less than 1e-3. A constant stays constant.
+/// neither gets lost nor grows, and ∫ L dω changes by less than 1e-3; where texels are whole blocks
+/// of a lat-long map's, by rounding alone. A constant stays constant.
 ///
 /// @param source         every texel finite
 /// @param width, height  of the result; they have the shape of its map

@@ -153,6 +153,32 @@ TEST(Resample, KeepsTheFluxOfManyLights) {
     }
 }
 
+TEST(Resample, BlocksOfALatLongMapBecomeTheirMeanOverSolidAngle) {
+    constexpr double kFloatRounding = 1e-6;
+    constexpr int kBlock = 3, kWidth = 8, kHeight = 4;
+    Environment source{SphereMap::latLong, Image(kBlock * kWidth, kBlock * kHeight)};
+    RandomStream random(5, 0);
+    for (Vec3f& radiance : source.radiance.pixels)
+        for (int channel = 0; channel < 3; ++channel)
+            radiance[channel] = static_cast<float>(random.nextUnitDouble());
+    const Environment result = resample(source, SphereMap::latLong, kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            Vec3d flux(0.0);
+            double solidAngle = 0.0;
+            for (int i = 0; i < kBlock * kBlock; ++i) {
+                const int column = kBlock * x + i % kBlock, row = kBlock * y + i / kBlock;
+                const double ofTexel =
+                    sphereTexel(SphereMap::latLong, kBlock * kWidth, kBlock * kHeight, column, row)
+                        .solidAngle;
+                flux += Vec3d(source.radiance.at(column, row)) * ofTexel;
+                solidAngle += ofTexel;
+            }
+            EXPECT_LT((Vec3d(result.radiance.at(x, y)) - flux / solidAngle).length(),
+                      kFloatRounding);
+        }
+}
+
 TEST(Resample, LeavesASunInItsPlace) {
     Environment source = draw(kShapes[0], 64, [](const Vec3d&) { return Vec3f(0.0f); });
     source.radiance.at(40, 20) = Vec3f(1000.0f);
