@@ -4,6 +4,7 @@
 #include "prt/gltf/gltf_scene.h"
 #include "tests/asset/asset_builder.h"
 #include "tests/gltf/gltf_builder.h"
+#include "tests/support/kept_assets.h"
 
 namespace prt {
 namespace {
@@ -70,6 +71,7 @@ TEST(Asset, EveryCombinationOfLayersComesBackBitForBit) {
                 const CompressedTransfer transfer =
                     makeTransfer(scene, bandCount, encoding, combination(bits));
                 writeAsset(path, scene, transfer, makeProvenance());
+                test::keepAsset(path);
                 expectSameTransfer(readAsset(path).transfer, transfer);
             }
 }

@@ -7,6 +7,7 @@
 #include "prt/base/error.h"
 #include "tests/asset/asset_builder.h"
 #include "tests/asset/asset_damage.h"
+#include "tests/support/kept_assets.h"
 
 namespace prt {
 namespace {
@@ -24,7 +25,9 @@ constexpr std::array kEncodings = {TransferEncoding::float32, TransferEncoding::
                                    TransferEncoding::unorm8};
 
 Asset writeAndRead(const Scene& scene, const CompressedTransfer& transfer) {
-    return decodeAsset(encodeAsset(scene, transfer, makeProvenance()), "asset");
+    const std::vector<std::byte> bytes = encodeAsset(scene, transfer, makeProvenance());
+    test::keepAsset(bytes);
+    return decodeAsset(bytes, "asset");
 }
 
 /// The written transfer with a receiver for each vertex, as it is read.

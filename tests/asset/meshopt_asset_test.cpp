@@ -8,6 +8,7 @@
 #include "prt/base/error.h"
 #include "prt/gltf/vertex_order.h"
 #include "tests/asset/asset_builder.h"
+#include "tests/support/kept_assets.h"
 
 namespace prt {
 namespace {
@@ -65,6 +66,7 @@ TEST_P(MeshoptAsset, EveryStoredNumberComesBack) {
     const Scene scene = makeScene();
     const CompressedTransfer transfer = makeSmoothTransfer(scene, GetParam());
     const std::vector<std::byte> encoded = encodeSmooth(GetParam());
+    test::keepAsset(encoded);
     EXPECT_LT(encoded.size(), encodeAsset(scene, transfer, test::makeProvenance()).size());
     const Asset asset = decodeAsset(encoded, "small.prt.glb");
     EXPECT_TRUE(asset.transfer.layers[0].table.numbers == transfer.layers[0].table.numbers);

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/kept_assets.h"
 #include "tests/support/temporary_folder.h"
 
 namespace prt::test {
@@ -31,6 +33,11 @@ class PrtProcess {
                std::optional<rlim_t> fileBytesLimit = {},
                std::optional<rlim_t> memoryBytesLimit = {})
         : outputPath_(folder.captured("output")), errorsPath_(folder.captured("errors")) {
+        const auto option = std::ranges::find_if(
+            arguments, [](const std::string& word) { return word == "-o" || word == "--output"; });
+        if (option != arguments.end() && option + 1 != arguments.end() &&
+            option[1].ends_with(".glb"))
+            assetPath_ = folder.path() / option[1];
         std::vector<std::string> words = {PRT_BINARY};
         words.insert(words.end(), arguments.begin(), arguments.end());
         std::vector<char*> pointers;
@@ -55,6 +62,7 @@ class PrtProcess {
     CommandResult wait() const {
         int status = 0;
         ::waitpid(process_, &status, 0);
+        if (status == 0 && std::filesystem::exists(assetPath_)) keepAsset(assetPath_);
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1,
                 WIFSIGNALED(status) ? WTERMSIG(status) : 0, readText(outputPath_),
                 readText(errorsPath_)};
@@ -71,6 +79,7 @@ class PrtProcess {
 
     std::filesystem::path outputPath_;
     std::filesystem::path errorsPath_;
+    std::filesystem::path assetPath_;  ///< the .glb that it is to write, if any
     pid_t process_ = -1;
 };
 

@@ -14,6 +14,7 @@
 #include "prt/gltf/gltf_scene.h"
 #include "tests/gltf/glb_file.h"
 #include "tests/gltf/gltf_builder.h"
+#include "tests/support/kept_assets.h"
 
 namespace prt {
 namespace {
@@ -101,6 +102,7 @@ Scene richScene() {
 Scene writeAndRead(const Scene& scene) {
     const ScratchFolder folder;
     writeGlb(folder.path() / "scene.glb", scene);
+    test::keepAsset(folder.path() / "scene.glb");
     return readGltf(folder.path() / "scene.glb");
 }
 

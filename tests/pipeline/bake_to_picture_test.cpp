@@ -15,6 +15,7 @@
 #include "prt/scene/procedural.h"
 #include "prt/scene/refine.h"
 #include "prt/transport/bake.h"
+#include "tests/support/kept_assets.h"
 #include "tests/support/scenes.h"
 
 namespace prt {
@@ -38,6 +39,7 @@ std::vector<Vec3f> relightThroughAsset(const Scene& scene, const BakeOptions& op
     const std::filesystem::path file = std::filesystem::temp_directory_path() / name;
     writeAsset(file, scene, compressTransfer(bakeTransfer(scene, options), {encoding}), {});
     const Asset asset = readAsset(file);
+    test::keepAsset(file);
     std::filesystem::remove(file);
 
     const Relighter relighter(asset.transfer, options.transport);
