@@ -38,6 +38,9 @@ Json parseJson(std::string_view text) {
                     "keep its buffers in files of their own or in a .glb");
     if (nestingDepth(text) > kMaxJsonDepth)
         throw Error(ErrorCode::limitExceeded, "nests its JSON more than 64 levels deep");
+    // The parser would end at a zero, and not see what follows.
+    if (text.find('\0') != std::string_view::npos)
+        throw Error(ErrorCode::malformed, "has a zero byte in its JSON");
     try {
         return Json::parse(text.begin(), text.end());
     } catch (const Json::parse_error& error) {

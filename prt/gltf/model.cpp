@@ -46,7 +46,9 @@ bool isHarmless(const std::string& extension) {
 void checkVersion(const JsonCursor& root) {
     const JsonCursor asset = root.at("asset");
     const std::string& version = asset.at("version").toString();
-    if (!version.starts_with("2."))
+    const bool isTwo = version.starts_with("2.") && version.size() > 2 &&
+                       version.find_first_not_of("0123456789", 2) == std::string::npos;
+    if (!isTwo)
         throw Error(ErrorCode::unsupported, "is glTF of version \"" + version + "\", not 2");
     if (asset.stringOr("minVersion", "2.0") != "2.0")
         throw Error(ErrorCode::unsupported, "asks for a reader of a later version than glTF 2.0");

@@ -287,6 +287,23 @@ TEST(GltfHostile, TextThatIsNoGltfIsRefused) {
     EXPECT_THROW(readGltf(folder.path()), Error);
 }
 
+TEST(GltfHostile, AVersionIsTwoNumbers) {
+    GltfBuilder builder = makeTriangleFile();
+    builder.json["asset"]["version"] = "2.17";
+    EXPECT_TRUE(isRead(builder.gltf()));
+    for (const char* version : {"2.", "2.x", "2. ", "2.0.1", "2", "02.0"}) {
+        builder.json["asset"]["version"] = version;
+        expectRefused(builder, version);
+    }
+}
+
+TEST(GltfHostile, NothingFollowsAZeroByte) {
+    const std::string text = makeTriangleFile().gltf();
+    EXPECT_TRUE(isRead(text + " "));
+    EXPECT_FALSE(isRead(text + '\0'));
+    EXPECT_FALSE(isRead(text + '\0' + "x"));
+}
+
 TEST(GltfHostile, CountsWithoutBytesBehindThemAreLimited) {
     // A sparse accessor without a view has as many zeros as it says.
     GltfBuilder builder = makeTriangleFile();
