@@ -1,7 +1,7 @@
 #include "prt/asset/asset.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <new>
@@ -91,18 +91,26 @@ class BoundAttributes {
     std::map<std::string, std::string> checksums_;
 };
 
+/// The vectors of an attribute of a mesh, three numbers each.
+std::vector<float> readVectors(const BoundAttributes& attributes, const std::string& semantic,
+                               const Mesh& mesh) {
+    const std::vector<std::byte> bytes = attributes.read(semantic, {mesh.vertexCount(), 3});
+    std::vector<float> numbers(bytes.size() / sizeof(float));
+    std::memcpy(numbers.data(), bytes.data(), bytes.size());
+    return numbers;
+}
+
 /// Demands that a mesh is where it was baked and as it was baked: transfer belongs to the place,
 /// and to the normal.
 void checkGeometry(const BoundAttributes& attributes, const Mesh& mesh) {
-    const AccessorInfo vectors{mesh.vertexCount(), 3};
-    const std::vector<std::byte> positions = attributes.read("POSITION", vectors);
-    attributes.read("NORMAL", vectors);
+    const std::vector<float> positions = readVectors(attributes, "POSITION", mesh);
     for (std::size_t vertex = 0; vertex < mesh.vertexCount(); ++vertex) {
-        std::array<float, 3> xyz;
-        std::memcpy(xyz.data(), positions.data() + vertex * sizeof(xyz), sizeof(xyz));
+        const float* const xyz = &positions[3 * vertex];
         if (Vec3f(xyz[0], xyz[1], xyz[2]) != mesh.positions[vertex])
             reject(attributes.place() + " is moved by its node, away from where it was baked");
     }
+    for (const float number : readVectors(attributes, "NORMAL", mesh))
+        if (!std::isfinite(number)) reject(attributes.place() + " has a normal that is not finite");
 }
 
 /// Demands that each vertex has zeros beyond its last number.

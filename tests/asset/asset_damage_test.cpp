@@ -229,6 +229,18 @@ TEST(AssetDamage, FloatsThatAreNoCoefficientsAreRefusedEvenWithFittingChecksums)
                         makeAssetBytes({TransferEncoding::float32}));
 }
 
+TEST(AssetDamage, NormalsThatAreNotFiniteAreRefusedEvenWithFittingChecksums) {
+    const auto setNormal = [](float value) {
+        return [value](GlbFile& file) {
+            const std::size_t attribute = primitiveOf(file, 1)["attributes"]["NORMAL"];
+            std::memcpy(file.view(attribute).data() + 4 * sizeof(float), &value, sizeof(value));
+        };
+    };
+    expectEachIsRefused(
+        {{"NaN", setNormal(std::nanf("")), "normal"}, {"infinity", setNormal(INFINITY), "normal"}},
+        makeAssetBytes());
+}
+
 // Three bands are nine coefficients in three attributes; the last three
 // numbers of the third are padding.
 TEST(AssetDamage, PaddingThatIsNotZeroIsRefused) {
