@@ -13,7 +13,7 @@
 #include "prt/light/analytic_lights.h"
 #include "prt/light/deringing.h"
 #include "prt/light/lat_long_projection.h"
-#include "prt/relight/relighter.h"
+#include "tests/web/relit_layer.h"
 
 namespace {
 
@@ -142,34 +142,6 @@ Json writeProjections() {
     return cases;
 }
 
-/// What vertices reflect before their albedo, or, of matrices, what arrives there.
-Json relightLayer(const CompressedTransfer& transfer, const CompressedLayer& layer,
-                  const Lighting& lighting) {
-    std::vector<double> numbers;
-    if (!isGlossy(layer.transport)) {
-        std::vector<Vec3f> radiance(transfer.receiverCount);
-        Relighter(transfer, layer.transport).relight(lighting, radiance);
-        for (const Vec3f& rgb : radiance)
-            numbers.insert(numbers.end(), {rgb.x, rgb.y, rgb.z});
-        return numbers;
-    }
-    const std::vector<float> matrices = expandLayer(layer);
-    const std::size_t columns = lighting.coefficients.size();
-    const auto rows = static_cast<std::size_t>(layer.incidentBandCount * layer.incidentBandCount);
-    const auto channels = static_cast<std::size_t>(layer.channelCount);
-    for (std::size_t vertex = 0; vertex < transfer.receiverCount; ++vertex)
-        for (std::size_t i = 0; i < rows; ++i)
-            for (std::size_t channel = 0; channel < 3; ++channel) {
-                const std::size_t row = (vertex * channels + channel % channels) * rows + i;
-                double sum = 0.0;
-                for (std::size_t j = 0; j < columns; ++j)
-                    sum += matrices[row * columns + j] *
-                           lighting.coefficients[j][static_cast<int>(channel)];
-                numbers.push_back(sum);
-            }
-    return numbers;
-}
-
 Json writeRelitAssets(int pathCount, char** paths) {
     Json cases = Json::array();
     for (int k = 0; k < pathCount; ++k) {
@@ -178,7 +150,7 @@ Json writeRelitAssets(int pathCount, char** paths) {
         Json layers = Json::object();
         for (const CompressedLayer& layer : asset.transfer.layers)
             layers[std::string(transportName(layer.transport))] =
-                relightLayer(asset.transfer, layer, lighting);
+                test::relightLayer(asset.transfer, layer, lighting);
         cases.push_back({{"file", std::filesystem::path(paths[k]).filename()},
                          {"lighting", toJson(lighting)},
                          {"layers", layers}});

@@ -10,7 +10,7 @@ export interface MeshoptDecoder {
 
 const kMeshopt = 'EXT_meshopt_compression';
 // What a file may require: nothing of it changes the vertices.
-const kUnderstood = /^(EXT_meshopt_compression|EXT_texture_(webp|avif)|KHR_texture_(transform|basisu)|KHR_materials_\w+|KHR_lights_punctual|OPENPRT_radiance_transfer)$/;
+const kUnderstood = /^(EXT_meshopt_compression|EXT_texture_(webp|avif)|KHR_texture_(transform|basisu)|KHR_mesh_quantization|KHR_materials_\w+|KHR_lights_punctual|OPENPRT_radiance_transfer)$/;
 // A byte of meshopt's is at most so many: runs of 16 equal bytes take two bits.
 const kMostDecodedPerStored = 256;
 // Each is hashed: a small file must not keep a reader busy.
@@ -56,7 +56,10 @@ export class GltfDocument {
     ) {
         this.root = new JsonCursor(json, 'glTF');
         this.checkVersion();
-        const sizes = this.list('buffers').map((buffer) => buffer.at('byteLength').toCount(1));
+        const sizes = this.list('buffers').map((buffer) => {
+            buffer.find('extensions')?.find(kMeshopt)?.find('fallback')?.toFlag();
+            return buffer.at('byteLength').toCount(1);
+        });
         sizes.forEach((size, i) => {
             const bytes = buffers[i];
             if (bytes && bytes.byteLength < size)
@@ -199,16 +202,14 @@ export class GltfDocument {
     }
 }
 
-/** A piece of a buffer, which must hold it. */
-function slice(
-    object: JsonCursor, sizes: readonly number[], buffers: readonly (Uint8Array | undefined)[], length: number,
-): Uint8Array {
+/** A piece of a buffer, which must hold it; nothing where the buffer has no bytes. */
+function slice(object: JsonCursor, sizes: readonly number[], buffers: readonly (Uint8Array | undefined)[]): Uint8Array | undefined {
     const buffer = object.at('buffer').toCount();
     const begin = object.find('byteOffset')?.toCount() ?? 0;
+    const length = object.at('byteLength').toCount(1);
     if (!(buffer < sizes.length)) object.at('buffer').reject('is no buffer');
     if (begin + length > sizes[buffer]) object.reject('ends behind its buffer');
-    const bytes = buffers[buffer] ?? object.at('buffer').reject('has no bytes');
-    return bytes.subarray(begin, begin + length);
+    return buffers[buffer]?.subarray(begin, begin + length);
 }
 
 function parseView(place: JsonCursor, sizes: readonly number[], buffers: readonly (Uint8Array | undefined)[]): BufferView {
@@ -216,18 +217,19 @@ function parseView(place: JsonCursor, sizes: readonly number[], buffers: readonl
     const byteLength = place.at('byteLength').toCount(1);
     const stride = place.find('byteStride')?.toCount(4, 252) ?? 0;
     if (stride % 4 !== 0) place.at('byteStride').reject('must be a multiple of 4');
+    const own = slice(place, sizes, buffers);
     const packing = place.find('extensions')?.find(kMeshopt);
     if (!packing) {
-        const bytes = slice(place, sizes, buffers, byteLength);
+        const bytes = own ?? place.at('buffer').reject('has no bytes');
         return { place, stored: bytes, byteOffset, byteLength, stride, packing: undefined, bytes };
     }
-    const stored = slice(packing, sizes, buffers, packing.at('byteLength').toCount(1));
+    const stored = slice(packing, sizes, buffers) ?? packing.at('buffer').reject('has no bytes');
     const count = packing.at('count').toCount(1);
     if (packing.at('byteStride').toCount(1, 256) * count !== byteLength)
         packing.reject('does not fit the length of its buffer view');
     if (byteLength > kMostDecodedPerStored * stored.length) packing.reject('promises more than its bytes can hold');
     return {
-        place, stored, byteOffset: 0, byteLength, stride, bytes: undefined,
+        place, stored, byteOffset, byteLength, stride, bytes: undefined,
         packing: { count, mode: packing.at('mode').toText(), filter: packing.find('filter')?.toText() ?? 'NONE' },
     };
 }

@@ -133,6 +133,9 @@ function readPrimitive(document: GltfDocument, header: Header, shown: ShownPrimi
         if (checksum.toText() !== checksumOf(bytes)) checksum.reject(`differs: the data of ${name} are not those that were baked`);
         return bytes;
     };
+    mine.at('checksums').keys().forEach((name) => mine.at('checksums').at(name).toText());
+    for (const name of object.at('attributes').keys())
+        if (document.countOf(attributeOf(object, name)) !== vertexCount) object.at('attributes').at(name).reject(`has another number of elements than ${vertexCount}`);
     checkTriangles(document, object, vertexCount);
     const floats = { type: 'VEC3', componentType: 5126, normalized: false, count: vertexCount };
     const positions = arrayOver('float32', readBound('POSITION', floats)) as Float32Array;
@@ -153,6 +156,7 @@ function readPrimitive(document: GltfDocument, header: Header, shown: ShownPrimi
 function checkTriangles(document: GltfDocument, primitive: JsonCursor, vertexCount: number): void {
     if (![4, 5, 6].includes(primitive.find('mode')?.toCount() ?? 4)) primitive.reject('is not made of triangles');
     const reference = primitive.find('indices');
+    if ((reference ? document.countOf(reference.toCount()) : vertexCount) < 3) primitive.reject('has no triangle');
     if (!reference) return;
     const form = document.formOf(reference.toCount());
     const isIndex = [5121, 5123, 5125].includes(form.componentType) && form.type === 'SCALAR' && !form.normalized;
