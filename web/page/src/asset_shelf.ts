@@ -34,7 +34,7 @@ export class AssetShelf {
 
     /** What was loaded of it and not let go of. */
     find(index: number): LoadedAsset | undefined {
-        return this.assets[index].loaded;
+        return this.assets[index]?.loaded;
     }
 
     /** Parses it, if that is not done yet. @throws  what says why it cannot be shown */

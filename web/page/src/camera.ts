@@ -39,11 +39,16 @@ export class OrbitCamera {
         this.isBeingSet = false;
     }
 
-    /** Where pictures are higher than wide the field of view is that of the width, so that what was in view stays in view. */
-    setAspectRatio(aspectRatio: number): void {
-        const tangent = Math.tan(MathUtils.degToRad(this.verticalFovDegrees) / 2) / Math.min(aspectRatio, 1);
-        this.camera.aspect = aspectRatio;
+    /**
+     * Fits the camera to a picture of which something is covered. Where what is left is higher than wide the field of view is that of its
+     * width, so that what was in view stays in view.
+     */
+    fit(width: number, height: number, { right, bottom }: { right: number; bottom: number }): void {
+        const seenRatio = Math.max(width - right, 1) / Math.max(height - bottom, 1);
+        const tangent = ((Math.tan(MathUtils.degToRad(this.verticalFovDegrees) / 2) / Math.min(seenRatio, 1)) * height) / Math.max(height - bottom, 1);
+        this.camera.aspect = width / height;
         this.camera.fov = MathUtils.radToDeg(2 * Math.atan(tangent));
+        this.camera.setViewOffset(width, height, right / 2, bottom / 2, width, height);
         if (this.bounds) {
             const distance = this.camera.position.distanceTo(this.bounds.center);
             const radius = Math.max(this.bounds.radius, Number.EPSILON) * 1.01;

@@ -6,6 +6,10 @@ import type { Viewer } from './viewer.js';
 /** How far the light turns while the pointer goes across the whole canvas; it keeps up with the side of the asset that faces the eye. */
 const kDegreesPerWidth = 360;
 
+const kDegreesPerKey = 5;
+const kZoomPerKey = 0.9;
+const kArrows: Record<string, [right: number, down: number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+
 /** What a drag of one finger or the left button turns. */
 export type DragTarget = 'camera' | 'light';
 
@@ -19,7 +23,29 @@ export class LightGesture {
         // Before the camera's controls hear of it.
         canvas.addEventListener('pointerdown', (event) => this.begin(event), { capture: true });
         canvas.addEventListener('pointermove', (event) => this.move(event));
+        canvas.addEventListener('keydown', (event) => this.press(event));
         for (const end of ['pointerup', 'pointercancel'] as const) canvas.addEventListener(end, (event) => this.end(event));
+    }
+
+    /** Arrows turn the camera, with Shift the light; plus and minus go nearer and away. */
+    private press(event: KeyboardEvent): void {
+        const { viewer } = this;
+        const { controls } = viewer.camera;
+        const [right, down] = kArrows[event.key] ?? [0, 0];
+        if (event.key === '+' || event.key === '=') controls.dollyIn(kZoomPerKey);
+        else if (event.key === '-') controls.dollyOut(kZoomPerKey);
+        else if (right === 0 && down === 0) return;
+        else if (event.shiftKey || this.target === 'light') this.turnLight(kDegreesPerKey * right, kDegreesPerKey * down);
+        else {
+            controls.rotateLeft((kDegreesPerKey * right * Math.PI) / 180);
+            controls.rotateUp((kDegreesPerKey * down * Math.PI) / 180);
+        }
+        event.preventDefault();
+    }
+
+    private turnLight(turn: number, tilt: number): void {
+        const { turnDegrees, tiltDegrees } = this.viewer.state;
+        this.viewer.change({ turnDegrees: wrapDegrees(turnDegrees + turn), tiltDegrees: wrapDegrees(tiltDegrees + tilt) });
     }
 
     private begin(event: PointerEvent): void {
@@ -38,11 +64,7 @@ export class LightGesture {
         this.pointers.set(event.pointerId, event);
         if (!this.isTurning) return;
         const degreesPerPixel = kDegreesPerWidth / this.canvas.clientWidth;
-        const { turnDegrees, tiltDegrees } = this.viewer.state;
-        this.viewer.change({
-            turnDegrees: wrapDegrees(turnDegrees + degreesPerPixel * (event.clientX - before.clientX)),
-            tiltDegrees: wrapDegrees(tiltDegrees + degreesPerPixel * (event.clientY - before.clientY)),
-        });
+        this.turnLight(degreesPerPixel * (event.clientX - before.clientX), degreesPerPixel * (event.clientY - before.clientY));
     }
 
     private end(event: PointerEvent): void {

@@ -2,6 +2,7 @@ import './page.css';
 
 import { keepInAddress } from './address.js';
 import { runBenchmark, showBenchmark } from './benchmark.js';
+import { makeDefaultLight } from './default_light.js';
 import { Divider } from './divider.js';
 import { FileDrop } from './file_drop.js';
 import { LightGesture } from './gestures.js';
@@ -14,7 +15,7 @@ import { parseHash } from './view_state.js';
 import { Viewer } from './viewer.js';
 
 const kNoGraphics = 'This page draws with WebGL2, which this browser does not have or has turned off.';
-const kNoData = '`prt web ASSET -o page.html` fills this page. Until then it shows what is dropped on it: an asset, and a light.';
+const kNoData = 'This page is empty: prt web ASSET -o page.html makes one with an asset in it. Drop a baked asset here to see it.';
 
 function elementOf<Kind extends HTMLElement>(id: string): Kind {
     return document.getElementById(id) as Kind;
@@ -36,7 +37,8 @@ function start(): void {
     const asked = query.get('mode');
     const mode = asked === 'cpu' || asked === 'gpu' ? asked : isSoftwareRasteriser(gl) ? 'cpu' : 'gpu';
     document.body.classList.toggle('slow', mode === 'cpu'); // what is behind the panel is not blurred then
-    const viewer = new Viewer(canvas, gl, data, data.lights.map(takeLight), mode, messages);
+    const lights = data.lights.length > 0 ? data.lights.map(takeLight) : [makeDefaultLight()];
+    const viewer = new Viewer(canvas, gl, data, lights, mode, messages);
     viewer.replace(parseHash(location.hash));
     keepInAddress(viewer);
     new Divider(canvas, viewer);

@@ -20,6 +20,9 @@ export function chooseShown({ bandCount, transports }: Relightable, side: Side):
     };
 }
 
+// Longer than this and a turn of the light stutters.
+const kMostMilliseconds = 50;
+
 /** One half of the picture: an asset, lit by itself. */
 export class Pane {
     readonly scene = new Scene();
@@ -28,6 +31,8 @@ export class Pane {
     private relightable?: Relightable | undefined;
     private light?: Light;
     private litBy = '';
+    /** What it took to light this asset under each transport. */
+    private readonly milliseconds = new Map<Transport, number>();
 
     /** @param isCopy  whether to show a copy of an asset, since the other half may show the asset itself */
     constructor(private readonly isCopy: boolean) {}
@@ -46,18 +51,33 @@ export class Pane {
         if (this.isCopy) this.relightable?.dispose();
         this.asset = this.root = this.relightable = undefined;
         this.litBy = '';
+        this.milliseconds.clear();
     }
 
-    /** Sums radiance anew where something of it has changed; turning the camera is none of that. */
-    relight(side: Side, light: Light, rotation: Mat3): void {
+    /**
+     * Sums radiance anew where something of it has changed; turning the camera is none of that. While things move, transport that takes long
+     * is stood in for by the fullest of diffuse surfaces.
+     *
+     * @returns  whether what is shown is what was asked for
+     */
+    relight(side: Side, light: Light, rotation: Mat3, isMoving: boolean): boolean {
         const { relightable } = this;
-        if (!relightable) return;
+        if (!relightable) return true;
         const { transport, bands, window } = chooseShown(relightable, side);
         const key = [transport, bands, window, ...rotation].join();
-        if (light === this.light && key === this.litBy) return;
-        this.light = light;
-        this.litBy = key;
-        if (relightable.transport !== transport) relightable.setTransport(transport);
+        if (light === this.light && key === this.litBy) return true;
+        const standIn = isMoving && this.isSlow(transport) ? relightable.transports.findLast((other) => !this.isSlow(other)) : undefined;
+        const begin = performance.now();
+        if (relightable.transport !== (standIn ?? transport)) relightable.setTransport(standIn ?? transport);
         relightable.setLighting(light.prepare(bands, window, rotation));
+        if (standIn === undefined) this.milliseconds.set(transport, performance.now() - begin);
+        this.light = light;
+        this.litBy = standIn === undefined ? key : '';
+        return standIn === undefined;
+    }
+
+    /** Whether its matrices are many for this machine. */
+    private isSlow(transport: Transport): boolean {
+        return transport.startsWith('glossy') && (this.milliseconds.get(transport) ?? 0) > kMostMilliseconds;
     }
 }

@@ -32,6 +32,9 @@ function formatStops(stops: number): string {
     return `${stops < 0 ? '−' : '+'}${Math.abs(stops).toFixed(1)}`;
 }
 
+/** Screens on which the panel is a sheet at the bottom, as page.css has it. */
+const kNarrow = matchMedia('(max-width: 640px)');
+
 /** What stands beside the picture: every part of the state, to be seen and changed. */
 export class Panel {
     private readonly controls: Control[] = [];
@@ -45,11 +48,11 @@ export class Panel {
         body.append(make('div', { className: 'actions' }, makeButton('Open files…', openFiles), makeButton('Reset view', () => viewer.resetCamera())));
         const fold = make('button', { type: 'button', id: 'panel-fold', ariaLabel: 'Show or hide the controls' });
         fold.setAttribute('aria-controls', body.id);
-        fold.addEventListener('click', () => this.fold(fold, this.panel.classList.toggle('folded')));
+        fold.addEventListener('click', () => this.fold(fold, !this.panel.classList.contains('folded')));
         this.panel = make('aside', { id: 'panel' }, make('header', {}, make('div', {}, this.title, this.facts), fold), body);
-        this.panel.classList.toggle('folded', matchMedia('(max-width: 640px)').matches);
-        this.fold(fold, this.panel.classList.contains('folded'));
+        this.fold(fold, kNarrow.matches);
         document.body.append(this.panel);
+        new ResizeObserver(() => this.tellCovered()).observe(this.panel);
         viewer.onFrame(() => this.refresh());
     }
 
@@ -64,7 +67,21 @@ export class Panel {
     }
 
     private fold(button: HTMLButtonElement, isFolded: boolean): void {
+        this.panel.classList.toggle('folded', isFolded);
         button.ariaExpanded = String(!isFolded);
+    }
+
+    /** Tells what of the picture the panel covers: a sheet its bottom, a column its right, and a column's head alone nothing. */
+    private tellCovered(): void {
+        const { viewer, panel } = this;
+        const { left, top, width } = panel.getBoundingClientRect();
+        const isHidden = width === 0;
+        const isSheet = kNarrow.matches;
+        const right = isHidden || isSheet || panel.classList.contains('folded') ? 0 : innerWidth - left;
+        const bottom = isHidden || !isSheet ? 0 : innerHeight - top;
+        if (right === viewer.covered.right && bottom === viewer.covered.bottom) return;
+        viewer.covered = { right, bottom };
+        viewer.refresh();
     }
 
     private add<Kind extends Control>(control: Kind): Kind {

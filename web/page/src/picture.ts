@@ -19,6 +19,8 @@ export interface Shot {
     background: boolean;
     /** Where the second pane begins, 0 to 1 of the width; absent: nowhere. */
     split?: number | undefined;
+    /** How much is hidden at the right and at the bottom, pixels of the page: what is looked at stands in the middle of the rest. */
+    covered: { right: number; bottom: number };
     /** Of fewer pixels, while things move and the CPU draws. */
     isCoarse: boolean;
 }
@@ -48,7 +50,7 @@ export class Picture {
             renderer.setPixelRatio(ratio);
             renderer.setSize(width, height, false);
         }
-        orbit.setAspectRatio(width / height);
+        orbit.fit(width, height, shot.covered);
         renderer.toneMapping = kToneMappings[shot.tone];
         renderer.toneMappingExposure = 2 ** shot.exposureStops;
         if (shot.background) {

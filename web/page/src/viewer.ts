@@ -16,6 +16,8 @@ const kRestMilliseconds = 200;
 /** Shows what the state says, and draws only when that has changed. */
 export class Viewer {
     state: ViewState = { ...kDefaultState };
+    /** What of the canvas something else covers, in pixels of the page, from the right and from the bottom. */
+    covered = { right: 0, bottom: 0 };
     readonly picture: Picture;
     readonly shelf: AssetShelf;
     readonly camera: OrbitCamera;
@@ -87,12 +89,12 @@ export class Viewer {
         return this.state.light < this.lights.length ? this.state.light : 0;
     }
 
-    get light(): Light | undefined {
+    get light(): Light {
         return this.lights[this.lightIndex];
     }
 
     get exposureStops(): number {
-        return this.state.exposureStops ?? this.light?.exposureStops ?? 0;
+        return this.state.exposureStops ?? this.light.exposureStops;
     }
 
     get progress(): Progress {
@@ -102,13 +104,14 @@ export class Viewer {
     /** Draws soon, once what is to be seen is there. */
     refresh(): void {
         if (this.progress !== 'failed') this.tell('loading');
-        this.isAtRest = this.mode === 'gpu' || this.frameCount === 0;
+        this.isAtRest = this.frameCount === 0;
         if (this.frameRequest === 0) this.frameRequest = requestAnimationFrame(() => this.update());
     }
 
     private update(): void {
         this.frameRequest = 0;
-        if (this.isLost || this.shelf.names.length === 0) return;
+        if (this.isLost) return;
+        if (this.shelf.names.length === 0) return this.draw([]);
         const names: SideName[] = this.state.split === undefined ? ['first'] : ['first', 'other'];
         const indices = names.map((name) => this.assetIndexOf(name));
         const missing = indices.find((index) => index >= 0 && !this.shelf.find(index));
@@ -127,33 +130,35 @@ export class Viewer {
         this.refresh();
     }
 
-    /** Draws now. @param indices  of one or two assets, which are loaded */
+    /** Draws now. @param indices  of one or two assets, which are loaded, or of none */
     private draw(indices: readonly number[]): void {
         const { picture, light, state } = this;
-        if (!light) return;
         const begin = performance.now();
-        const [first, other] = indices.map((index) => this.shelf.find(index)!);
+        const [first, other] = indices.map((index) => this.shelf.find(index));
         const rotation = rotationOf(state);
-        picture.first.show(first);
-        picture.first.relight(sideOf(state, 'first'), light, rotation);
+        if (first) picture.first.show(first);
+        let isWhole = picture.first.relight(sideOf(state, 'first'), light, rotation, !this.isAtRest);
         if (other) {
             picture.other.show(other);
-            picture.other.relight(sideOf(state, 'other'), light, rotation);
+            isWhole = picture.other.relight(sideOf(state, 'other'), light, rotation, !this.isAtRest) && isWhole;
         } else {
             picture.other.clear();
         }
         this.shelf.keepOnly(indices);
-        this.lookAt(first, indices[0]);
-        picture.draw({ light, rotation, exposureStops: this.exposureStops, tone: state.tone, background: state.background, split: state.split, isCoarse: !this.isAtRest }, this.camera);
+        if (first) this.lookAt(first, indices[0]);
+        const isCoarse = this.mode === 'cpu' && !this.isAtRest;
+        const { exposureStops, covered } = this;
+        const { tone, background, split } = state;
+        picture.draw({ light, rotation, exposureStops, tone, background, split, covered, isCoarse }, this.camera);
         document.documentElement.dataset.frame = String(++this.frameCount);
-        if (this.isAtRest) this.tell('ready');
-        else this.drawFineSoon();
+        if (isWhole && !isCoarse) this.tell('ready');
+        else this.drawWholeSoon();
         for (const listener of this.listeners) listener();
         for (const resolve of this.waiting.splice(0)) resolve(begin);
     }
 
-    /** Draws in full once nothing moves. */
-    private drawFineSoon(): void {
+    /** Draws all of it once nothing moves. */
+    private drawWholeSoon(): void {
         clearTimeout(this.restTimer);
         this.restTimer = window.setTimeout(() => {
             this.isAtRest = true;
