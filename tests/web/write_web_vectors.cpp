@@ -10,10 +10,13 @@
 
 #include "prt/asset/asset.h"
 #include "prt/base/error.h"
+#include "prt/io/radiance_hdr.h"
 #include "prt/light/analytic_lights.h"
 #include "prt/light/deringing.h"
 #include "prt/light/lat_long_projection.h"
+#include "tests/gltf/gltf_builder.h"
 #include "tests/web/relit_layer.h"
+#include "tests/web/shown_surface.h"
 
 namespace {
 
@@ -158,6 +161,45 @@ Json writeRelitAssets(int pathCount, char** paths) {
     return cases;
 }
 
+/// A Radiance file and its light.
+Json writeRadiancePictures() {
+    constexpr int kWidth = 7;
+    constexpr int kHeight = 4;
+    const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 7\n";
+    const std::span<const std::byte> text = std::as_bytes(std::span(header));
+    std::vector<std::byte> file(text.begin(), text.end());
+    for (int k = 0; k < kWidth * kHeight; ++k) {
+        for (int channel = 0; channel < 3; ++channel)
+            file.push_back(std::byte(random32() % 256));
+        file.push_back(std::byte(126 + random32() % 6));
+    }
+    const Image image = decodeRadianceHdr(file, "vectors.hdr", {});
+    return {{{"file", test::encodeBase64(file)}, {"lighting", toJson(projectLatLong(image, 4))}}};
+}
+
+/// An asset with textures, and pictures of it.
+Json writeShownSurface() {
+    const std::vector<std::byte> file = test::makeShownAsset();
+    Asset asset = decodeAsset(file, "shown.prt.glb");
+    decodeTextures(asset.scene);
+    Lighting lighting(asset.transfer.bandCount);  // so bright that little is below 0
+    for (Vec3d& coefficient : lighting.coefficients)
+        coefficient = Vec3d(9.0, 8.0, 7.0) + 2.0 * drawDirection();
+    Json pictures = Json::object();
+    for (const CompressedLayer& layer : asset.transfer.layers) {
+        Json numbers = Json::array();
+        for (const Vec3f& pixel : test::seeSurface(asset, layer, lighting))
+            for (int channel = 0; channel < 3; ++channel)
+                numbers.push_back(std::round(1.0e6 * pixel[channel]) / 1.0e6);
+        pictures[std::string(transportName(layer.transport))] = numbers;
+    }
+    return {{{"file", test::encodeBase64(file)},
+             {"size", test::kShownSize},
+             {"metres", test::kShownMetres},
+             {"lighting", toJson(lighting)},
+             {"pictures", pictures}}};
+}
+
 }  // namespace
 
 int main(int argumentCount, char** arguments) try {
@@ -167,7 +209,9 @@ int main(int argumentCount, char** arguments) try {
                           {"deringing", writeDeringing()},
                           {"suns", writeSuns()},
                           {"projections", writeProjections()},
-                          {"assets", writeRelitAssets(argumentCount - 1, arguments + 1)}};
+                          {"assets", writeRelitAssets(argumentCount - 1, arguments + 1)},
+                          {"radiancePictures", writeRadiancePictures()},
+                          {"shownSurfaces", writeShownSurface()}};
     for (const char* separator = "{\n"; const auto& [name, cases] : vectors.items()) {
         std::cout << separator << '"' << name << "\": [\n";
         for (const char* comma = ""; const Json& item : cases) {

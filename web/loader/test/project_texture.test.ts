@@ -4,8 +4,8 @@ import { describe, expect, it } from 'vitest';
 
 import { projectLatLong } from '../src/sh/project_lat_long.js';
 import { projectTexture } from '../src/sh/project_texture.js';
-import { reconstruct } from '../src/sh/lighting.js';
-import { lightDifference } from './support/vectors.js';
+import { reconstruct, scaleLighting } from '../src/sh/lighting.js';
+import { lightDifference, lightOf, vectors } from './support/vectors.js';
 
 /** A Radiance file whose upper half is red and bright, and whose lower half is blue. */
 function makeHdr(width: number, height: number): ArrayBuffer {
@@ -25,6 +25,15 @@ describe('an environment that three.js loaded', () => {
         const data = Array.from({ length: 24 }, (_, k) => (k < 12 ? [512 / 255, 0, 0] : [0, 0, 256 / 255])[k % 3]); // HDRLoader divides by 255
         expect(lightDifference(lighting, projectLatLong({ width: 4, height: 2, data, channelCount: 3 }, 3))).toBeLessThan(type === FloatType ? 1e-6 : 1e-3);
         expect(reconstruct(lighting, [0, 1, 0])[0]).toBeGreaterThan(reconstruct(lighting, [0, -1, 0])[0] + 1);
+    });
+
+    it.each(vectors.radiancePictures)('by HDRLoader is 256/255 as bright as the library reads it', ({ file, lighting }: any) => {
+        const { data, width, height, type } = new HDRLoader().setDataType(FloatType).parse(new Uint8Array(Buffer.from(file, 'base64')).buffer) as any;
+        const texture = new DataTexture(data, width, height, RGBAFormat, type);
+        texture.flipY = true;
+        const asBright = scaleLighting(projectTexture(texture, lighting.bands), [255 / 256, 255 / 256, 255 / 256]);
+        expect(lightDifference(asBright, lightOf(lighting))).toBeLessThan(1e-5);
+        expect(asBright.coefficients[0]).toBeGreaterThan(1);
     });
 
     it('without flipY, as EXRLoader leaves it, has its first row at the bottom', () => {

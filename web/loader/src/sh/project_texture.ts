@@ -6,6 +6,7 @@ import { type LatLongImage, projectLatLong } from './project_lat_long.js';
 
 /**
  * Projects an environment that three.js loaded, as HDRLoader and EXRLoader do: a lat-long picture of linear radiance, in floats or halves.
+ * HDRLoader makes it 256/255 as bright as it is: it divides mantissas by 255.
  *
  * @param texture  with its image still in memory, of three or four channels
  */
