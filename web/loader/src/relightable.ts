@@ -4,10 +4,11 @@ import { type Layer, type Transport, isGlossy } from './asset/layer.js';
 import type { Asset, AssetPrimitive } from './asset/read_asset.js';
 import { OpenPrtError } from './error.js';
 import { diffuseRow } from './relight/folded_light.js';
-import { GlossySurface, makeLobeTexture, surfaceOf } from './relight/glossy_surface.js';
+import { GlossySurface } from './relight/glossy_surface.js';
 import { LayerLight } from './relight/layer_light.js';
 import { relight } from './relight/relight.js';
 import { kRadianceAttribute, kRadianceOfAttribute, makeRelightMaterial, sumRadiance } from './relight/relight_material.js';
+import { type Surface, makeLobeTexture, surfaceOf } from './relight/surface.js';
 import { makeTransferTexture } from './relight/transfer_texture.js';
 import { type Lighting, darkness } from './sh/lighting.js';
 
@@ -103,6 +104,7 @@ export class Relightable {
     dispose(): void {
         for (const { mesh, source, made } of this.shown) {
             mesh.material = source;
+            mesh.geometry.deleteAttribute(kRadianceAttribute);
             for (const { material, transfer, surface } of made.values()) {
                 material.dispose();
                 transfer?.dispose();
@@ -138,8 +140,8 @@ export class Relightable {
     private make({ mesh, primitive, source }: ShownMesh, layer: Layer): MadeMaterial {
         const numbers = primitive.numbers[this.asset.header.layers.indexOf(layer)];
         if (this.shines(layer)) {
-            const { metallic, roughness } = surfaceOf(source);
-            const surface = new GlossySurface(layer, numbers, this.lobesOf(roughness, layer.incidentBandCount), metallic);
+            const look = surfaceOf(source);
+            const surface = new GlossySurface(layer, numbers, this.lobesOf(look, layer.incidentBandCount), look);
             return { material: makeRelightMaterial(source, surface.radiance), surface };
         }
         if (this.isOnCpu) {
@@ -155,9 +157,9 @@ export class Relightable {
         return { material: makeRelightMaterial(source, sumRadiance(light, transfer)), transfer };
     }
 
-    private lobesOf(roughness: number, bandCount: number): DataTexture {
-        const key = `${roughness} ${bandCount}`;
-        const lobes = this.lobes.get(key) ?? makeLobeTexture(roughness, bandCount);
+    private lobesOf(surface: Surface, bandCount: number): DataTexture {
+        const key = `${surface.texture ? 'all' : surface.roughness} ${bandCount}`;
+        const lobes = this.lobes.get(key) ?? makeLobeTexture(surface, bandCount);
         this.lobes.set(key, lobes);
         return lobes;
     }

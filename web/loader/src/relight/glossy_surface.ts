@@ -1,25 +1,13 @@
-import { DataTexture, FloatType, type Material, type MeshStandardMaterial, RGBAFormat } from 'three';
+import { DataTexture, FloatType, RGBAFormat } from 'three';
 
 import type { Layer, StoredArray } from '../asset/layer.js';
 import type { Lighting } from '../sh/lighting.js';
 import { shIndex } from '../sh/sh.js';
-import { kMostViewPlace, kViewCount, makeLobeTable } from './gltf_lobes.js';
+import { kMostViewPlace, kViewCount } from './gltf_lobes.js';
 import { textureSideFor } from './layer_light.js';
 import { receiveLight } from './relight.js';
 import type { RadianceCode } from './relight_material.js';
-
-/** K, B and D of a roughness (makeLobeTable) as a texture: a row a view. */
-export function makeLobeTexture(roughness: number, bandCount: number): DataTexture {
-    const texture = new DataTexture(makeLobeTable(roughness, bandCount), (bandCount * (bandCount + 1)) / 2, kViewCount, RGBAFormat, FloatType);
-    texture.needsUpdate = true;
-    return texture;
-}
-
-/** Metallic and roughness of a material; its textures of them play no part. */
-export function surfaceOf(material: Material): { metallic: number; roughness: number } {
-    const { metalness = 0, roughness = 1 } = material as Partial<MeshStandardMaterial>;
-    return { metallic: metalness, roughness };
-}
+import { type Surface, surfaceCode, surfaceUniforms } from './surface.js';
 
 /**
  * A primitive as it shines: the light that arrives at its vertices, summed on the CPU when the light changes, and what the vertex shader
@@ -29,14 +17,14 @@ export class GlossySurface {
     readonly radiance: RadianceCode;
     private readonly incident: DataTexture;
 
-    constructor(private readonly layer: Layer, private readonly numbers: StoredArray, lobes: DataTexture, metallic: number) {
+    constructor(private readonly layer: Layer, private readonly numbers: StoredArray, lobes: DataTexture, surface: Surface) {
         const texelCount = (numbers.length / (4 * layer.attributeCount)) * layer.incidentBandCount ** 2;
         const side = textureSideFor(texelCount);
         const height = Math.ceil(texelCount / side);
         this.incident = new DataTexture(new Float32Array(4 * side * height), side, height, RGBAFormat, FloatType);
         this.radiance = {
-            code: codeOf(layer.incidentBandCount),
-            uniforms: { prtIncident: { value: this.incident }, prtLobes: { value: lobes }, prtMetallic: { value: metallic } },
+            code: surfaceCode(surface) + codeOf(layer.incidentBandCount),
+            uniforms: { prtIncident: { value: this.incident }, prtLobes: { value: lobes }, ...surfaceUniforms(surface) },
             isGlossy: true,
         };
     }
@@ -69,8 +57,6 @@ function codeOf(bandCount: number): string {
         lines.push('    turn = vec2(turn.x * azimuth.x - turn.y * azimuth.y, turn.x * azimuth.y + turn.y * azimuth.x);');
     }
     return `uniform highp sampler2D prtIncident;
-uniform highp sampler2D prtLobes;
-uniform float prtMetallic;
 varying vec3 vPrtConstant;
 vec3 prtPerBaseColor;
 vec3 prtIncidentOf(int i) {
@@ -78,13 +64,13 @@ vec3 prtIncidentOf(int i) {
     int side = textureSize(prtIncident, 0).x;
     return texelFetch(prtIncident, ivec2(texel % side, texel / side), 0).rgb;
 }
-vec3 prtLobe(int row, int element) { return texelFetch(prtLobes, ivec2(element, row), 0).rgb; }
 void prtAdd(vec3 radiance, vec3 lobes) {
     float rest = lobes.g - lobes.r;
-    prtPerBaseColor += radiance * ((1.0 - prtMetallic) * 0.96 * lobes.b + prtMetallic * rest);
-    vPrtConstant += radiance * (lobes.r + 0.04 * (1.0 - prtMetallic) * rest);
+    prtPerBaseColor += radiance * ((1.0 - prtMetallicHere) * 0.96 * lobes.b + prtMetallicHere * rest);
+    vPrtConstant += radiance * (lobes.r + 0.04 * (1.0 - prtMetallicHere) * rest);
 }
 vec3 prtRadianceOf() {
+    prtFindSurface();
     // The view in the frame of the vertex.
     vec3 n = normalize(normal);
     vec3 view = isOrthographic

@@ -27,10 +27,9 @@ export function makeLobeTable(roughness: number, bandCount: number): Float32Arra
     const alpha = Math.max(roughness * roughness, kLeastAlpha);
     const uprightCount = (bandCount * (bandCount + 1)) / 2;
     const table = new Float32Array(4 * uprightCount * kViewCount);
-    const fit = makeHorizonFit(bandCount);
+    const fit = fitOf(bandCount);
     for (let view = 0; view < kViewCount; ++view) {
-        const cosine = 1 - ((kMostViewPlace * view) / (kViewCount - 1)) ** 2;
-        const lobes = projectLobes([Math.sqrt(1 - cosine * cosine), 0, cosine], alpha, bandCount).map(fit);
+        const lobes = [...projectSpecular(viewOf(view), alpha, bandCount).map(fit), diffuseOf(bandCount)[view]];
         for (let l = 0; l < bandCount; ++l)
             for (let m = 0; m <= l; ++m)
                 lobes.forEach((lobe, k) => (table[4 * (view * uprightCount + (l * (l + 1)) / 2 + m) + k] = lobe[shIndex(l, m)]));
@@ -38,13 +37,17 @@ export function makeLobeTable(roughness: number, bandCount: number): Float32Arra
     return table;
 }
 
-/** K, B and D of one view. */
-function projectLobes(wo: Vec3, alpha: number, bandCount: number): Float64Array[] {
-    const lobes = [0, 1, 2].map(() => new Float64Array(bandCount ** 2));
-    const add = (lobe: number, weight: number, values: Float64Array): void => values.forEach((value, i) => (lobes[lobe][i] += weight * value));
-    const azimuthCount = 32;
+function viewOf(view: number): Vec3 {
+    const cosine = 1 - ((kMostViewPlace * view) / (kViewCount - 1)) ** 2;
+    return [Math.sqrt(1 - cosine * cosine), 0, cosine];
+}
+
+/** K and B of one view. */
+function projectSpecular(wo: Vec3, alpha: number, bandCount: number): Float64Array[] {
+    const lobes = [new Float64Array(bandCount ** 2), new Float64Array(bandCount ** 2)];
+    const values = new Float64Array(bandCount ** 2);
     // Half vectors as GGX spreads them.
-    visitRule(48, azimuthCount, (u, phi, weight) => {
+    visitRule(48, (u, phi, weight) => {
         const cosine = Math.sqrt((1 - u) / (1 + (alpha * alpha - 1) * u));
         const sine = Math.sqrt(1 - cosine * cosine);
         const h: Vec3 = [sine * Math.cos(phi), sine * Math.sin(phi), cosine];
@@ -54,29 +57,53 @@ function projectLobes(wo: Vec3, alpha: number, bandCount: number): Float64Array[
         const smith = (a: number, b: number): number => a * Math.sqrt(b * b * (1 - alpha * alpha) + alpha * alpha);
         const visibility = 0.5 / (smith(wi[2], wo[2]) + smith(wo[2], wi[2]));
         const all = ((visibility * wi[2] * 4 * oh) / cosine) * weight;
-        const values = evaluateSh(wi, bandCount);
-        add(0, all * (1 - oh) ** 5, values);
-        add(1, all, values);
-    });
-    visitRule(16, azimuthCount, (z, phi, weight) => {
-        const sine = Math.sqrt(1 - z * z);
-        const wi: Vec3 = [sine * Math.cos(phi), sine * Math.sin(phi), z];
-        const oh = Math.sqrt((1 + wi[0] * wo[0] + z * wo[2]) / 2); // cosine of half the angle between them
-        add(2, 2 * z * (1 - (1 - oh) ** 5) * weight, evaluateSh(wi, bandCount));
+        addScaled(lobes[0], all * (1 - oh) ** 5, evaluateSh(wi, bandCount, values));
+        addScaled(lobes[1], all, values);
     });
     return lobes;
 }
 
-/** Visits u in (0, 1) and azimuths, whose weights add to 1. */
-function visitRule(count: number, azimuthCount: number, visit: (u: number, phi: number, weight: number) => void): void {
+const diffuseLobes: Float64Array[][] = [];
+
+/** D of each view, fitted; no roughness changes it. */
+function diffuseOf(bandCount: number): Float64Array[] {
+    return (diffuseLobes[bandCount] ??= Array.from({ length: kViewCount }, (_, view) => {
+        const wo = viewOf(view);
+        const lobe = new Float64Array(bandCount ** 2);
+        visitRule(16, (z, phi, weight) => {
+            const sine = Math.sqrt(1 - z * z);
+            const wi: Vec3 = [sine * Math.cos(phi), sine * Math.sin(phi), z];
+            const oh = Math.sqrt((1 + wi[0] * wo[0] + z * wo[2]) / 2); // cosine of half the angle between them
+            addScaled(lobe, 2 * z * (1 - (1 - oh) ** 5) * weight, evaluateSh(wi, bandCount));
+        });
+        return fitOf(bandCount)(lobe);
+    }));
+}
+
+function addScaled(sum: Float64Array, weight: number, values: Float64Array): void {
+    for (let i = 0; i < sum.length; ++i) sum[i] += weight * values[i];
+}
+
+const kAzimuthCount = 16;
+
+/** Visits u in (0, 1) and azimuths in (0, π), whose weights add to 1: what views at azimuth 0 see is the same on both sides. */
+function visitRule(count: number, visit: (u: number, phi: number, weight: number) => void): void {
     const { nodes, weights } = gaussLegendre(count);
     nodes.forEach((node, i) => {
-        for (let k = 0; k < azimuthCount; ++k) visit((node + 1) / 2, (2 * Math.PI * (k + 0.5)) / azimuthCount, weights[i] / 2 / azimuthCount);
+        for (let k = 0; k < kAzimuthCount; ++k) visit((node + 1) / 2, (Math.PI * (k + 0.5)) / kAzimuthCount, weights[i] / 2 / kAzimuthCount);
     });
 }
 
+type Fit = (coefficients: Float64Array) => Float64Array;
+
+const fits: Fit[] = [];
+
+function fitOf(bandCount: number): Fit {
+    return (fits[bandCount] ??= makeHorizonFit(bandCount));
+}
+
 /** Solves ((1 − ε) H + ε) f̃ = f, for each m by itself. */
-function makeHorizonFit(bandCount: number): (coefficients: Float64Array) => Float64Array {
+function makeHorizonFit(bandCount: number): Fit {
     const { nodes, weights } = gaussLegendre(bandCount);
     const values = Array.from(nodes, (node) => {
         const z = (node + 1) / 2;
@@ -93,10 +120,11 @@ function makeHorizonFit(bandCount: number): (coefficients: Float64Array) => Floa
                 return sum;
             }),
         );
+    const matrices = Array.from({ length: bandCount }, (_, m) => matrixOf(m));
     return (coefficients) => {
         const fitted = coefficients.slice();
         for (let m = 0; m < bandCount; ++m)
-            solve(matrixOf(m), Array.from({ length: bandCount - m }, (_, k) => coefficients[shIndex(m + k, m)])).forEach(
+            solve(matrices[m], Array.from({ length: bandCount - m }, (_, k) => coefficients[shIndex(m + k, m)])).forEach(
                 (value, k) => (fitted[shIndex(m + k, m)] = value),
             );
         return fitted;
@@ -104,7 +132,8 @@ function makeHorizonFit(bandCount: number): (coefficients: Float64Array) => Floa
 }
 
 /** Solves a system whose matrix is positive definite, by elimination. */
-function solve(matrix: number[][], right: number[]): number[] {
+function solve(rows: readonly number[][], right: number[]): number[] {
+    const matrix = rows.map((row) => [...row]);
     const count = right.length;
     for (let pivot = 0; pivot < count; ++pivot)
         for (let row = pivot + 1; row < count; ++row) {
