@@ -1,6 +1,6 @@
 import { BufferAttribute, type BufferGeometry, type DataTexture, DynamicDrawUsage, type Material, type Mesh, type Object3D } from 'three';
 
-import { type Layer, type Transport, isGlossy } from './asset/layer.js';
+import { type Layer, type StoredArray, type Transport, isGlossy } from './asset/layer.js';
 import type { Asset, AssetPrimitive } from './asset/read_asset.js';
 import { OpenPrtError } from './error.js';
 import { diffuseRow } from './relight/folded_light.js';
@@ -10,6 +10,7 @@ import { relight } from './relight/relight.js';
 import { kRadianceAttribute, kRadianceOfAttribute, makeRelightMaterial, sumRadiance } from './relight/relight_material.js';
 import { type Surface, makeLobeTexture, surfaceOf } from './relight/surface.js';
 import { makeTransferTexture } from './relight/transfer_texture.js';
+import { computeUnshadowed, makeUnshadowedLayer } from './relight/unshadowed.js';
 import { type Lighting, darkness } from './sh/lighting.js';
 
 export interface RelightOptions {
@@ -24,6 +25,8 @@ interface ShownMesh {
     mesh: Mesh<BufferGeometry>;
     primitive: AssetPrimitive;
     source: Material;
+    /** Transfer that its normals tell; found when it is first shown. */
+    unshadowed?: Float32Array;
     /** What setTransport made for a layer. */
     made: Map<string, MadeMaterial>;
 }
@@ -38,6 +41,8 @@ interface MadeMaterial {
 export class Relightable {
     private lighting: Lighting;
     private shownLayer: Layer;
+    /** Those that can be shown: the asset's, and what normals tell. */
+    private readonly layers: readonly Layer[];
     private readonly shown: ShownMesh[];
     private readonly lights = new Map<Layer, LayerLight>();
     private readonly lobes = new Map<string, DataTexture>();
@@ -55,8 +60,10 @@ export class Relightable {
         this.hasGloss = gloss;
         this.lighting = darkness(this.bandCount);
         this.shown = meshes.map((mesh, i) => ({ mesh, primitive: asset.primitives[i], source: mesh.material as Material, made: new Map() }));
-        const fullest = asset.header.layers.filter((layer) => this.canShow(layer)).at(-1);
+        const stored = asset.header.layers.filter((layer) => this.canShow(layer));
+        const fullest = stored.at(-1);
         if (!fullest) throw new OpenPrtError('unsupported', 'the asset has matrices of one incident band alone, which say nothing of diffuse surfaces');
+        this.layers = stored[0].transport === 'unshadowed' ? stored : [makeUnshadowedLayer(this.bandCount), ...stored];
         this.shownLayer = fullest;
         this.show(fullest);
     }
@@ -66,9 +73,9 @@ export class Relightable {
         return this.asset.header.bandCount;
     }
 
-    /** The kinds of transport that can be shown. */
+    /** The kinds of transport that can be shown. The first, `unshadowed`, always is: where the asset has no such layer, its normals tell it. */
     get transports(): Transport[] {
-        return this.asset.header.layers.filter((layer) => this.canShow(layer)).map((layer) => layer.transport);
+        return this.layers.map((layer) => layer.transport);
     }
 
     get transport(): Transport {
@@ -77,7 +84,7 @@ export class Relightable {
 
     /** Shows another kind of transport; at first it is the fullest. */
     setTransport(transport: Transport): void {
-        const layer = this.asset.header.layers.find((candidate) => candidate.transport === transport && this.canShow(candidate));
+        const layer = this.layers.find((candidate) => candidate.transport === transport);
         if (!layer) throw new OpenPrtError('invalidOption', `the asset cannot show ${transport} transport, but ${this.transports.join(', ')}`);
         this.show(layer);
     }
@@ -137,8 +144,14 @@ export class Relightable {
         this.light();
     }
 
-    private make({ mesh, primitive, source }: ShownMesh, layer: Layer): MadeMaterial {
-        const numbers = primitive.numbers[this.asset.header.layers.indexOf(layer)];
+    private numbersOf(shown: ShownMesh, layer: Layer): StoredArray {
+        const index = this.asset.header.layers.indexOf(layer);
+        return index >= 0 ? shown.primitive.numbers[index] : (shown.unshadowed ??= computeUnshadowed(layer, shown.primitive.normals));
+    }
+
+    private make(shown: ShownMesh, layer: Layer): MadeMaterial {
+        const { mesh, primitive, source } = shown;
+        const numbers = this.numbersOf(shown, layer);
         if (this.shines(layer)) {
             const look = surfaceOf(source);
             const surface = new GlossySurface(layer, numbers, this.lobesOf(look, layer.incidentBandCount), look);
@@ -174,10 +187,9 @@ export class Relightable {
             this.lights.get(layer)!.set(this.lighting);
             return;
         }
-        const index = this.asset.header.layers.indexOf(layer);
-        for (const { mesh, primitive } of this.shown) {
-            const attribute = mesh.geometry.getAttribute(kRadianceAttribute) as BufferAttribute;
-            relight(layer, primitive.numbers[index], this.lighting, attribute.array as Float32Array);
+        for (const shown of this.shown) {
+            const attribute = shown.mesh.geometry.getAttribute(kRadianceAttribute) as BufferAttribute;
+            relight(layer, this.numbersOf(shown, layer), this.lighting, attribute.array as Float32Array);
             attribute.needsUpdate = true;
         }
     }
