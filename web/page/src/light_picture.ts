@@ -1,4 +1,4 @@
-import { type Lighting, type Vec3, reconstruct } from 'openprt-three';
+import { type Lighting, type Vec3, applyWindow, deringingFactors, reconstruct } from 'openprt-three';
 import { ClampToEdgeWrapping, DataTexture, DataUtils, HalfFloatType, LinearFilter, RGBAFormat, RepeatWrapping } from 'three';
 
 /** What a light looks like, small: lat-long (C4), rows from the top, linear radiance in half floats, four a texel. */
@@ -30,12 +30,13 @@ export function makePicture(width: number, height: number, radianceAt: (column: 
     return { width, height, texels };
 }
 
-/** Of a light of which there are only coefficients. */
+/** Of a light of which there are only coefficients, without their ringing. */
 export function pictureOfCoefficients(lighting: Lighting): LightPicture {
+    const smooth = applyWindow(lighting, deringingFactors(lighting));
     return makePicture(2 * kMadeHeight, kMadeHeight, (column, row) => {
         const theta = (Math.PI * (row + 0.5)) / kMadeHeight;
         const azimuth = (Math.PI * (column + 0.5)) / kMadeHeight - Math.PI;
-        return reconstruct(lighting, [Math.sin(theta) * Math.cos(azimuth), Math.cos(theta), Math.sin(theta) * Math.sin(azimuth)]);
+        return reconstruct(smooth, [Math.sin(theta) * Math.cos(azimuth), Math.cos(theta), Math.sin(theta) * Math.sin(azimuth)]);
     });
 }
 

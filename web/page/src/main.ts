@@ -8,7 +8,8 @@ import { FileDrop } from './file_drop.js';
 import { LightGesture } from './gestures.js';
 import { isSoftwareRasteriser, openGraphics } from './graphics.js';
 import { takeLight } from './lights.js';
-import { Messages } from './messages.js';
+import type { Mode } from './load_asset.js';
+import { Messages, sentenceOf } from './messages.js';
 import { readPageData } from './page_data.js';
 import { Panel } from './panel.js';
 import { parseHash } from './view_state.js';
@@ -21,31 +22,40 @@ function elementOf<Kind extends HTMLElement>(id: string): Kind {
     return document.getElementById(id) as Kind;
 }
 
-function start(): void {
-    const messages = new Messages(elementOf('message-box'), elementOf('message'), elementOf('message-dismiss'));
+function tellFailed(messages: Messages, sentence: string): void {
+    document.documentElement.dataset.state = 'failed';
+    messages.say(sentence);
+}
+
+function start(messages: Messages): void {
     const canvas = elementOf<HTMLCanvasElement>('picture');
-    document.documentElement.dataset.state = 'loading';
     const gl = openGraphics(canvas);
-    if (!gl) {
-        document.documentElement.dataset.state = 'failed';
-        messages.say(kNoGraphics);
-        return;
-    }
+    if (!gl) return tellFailed(messages, kNoGraphics);
+    const query = new URLSearchParams(location.search);
     const data = readPageData();
     document.title = data.assets.map(({ name }) => name).join(', ') || document.title;
-    const query = new URLSearchParams(location.search);
-    const asked = query.get('mode');
-    const mode = asked === 'cpu' || asked === 'gpu' ? asked : isSoftwareRasteriser(gl) ? 'cpu' : 'gpu';
-    document.body.classList.toggle('slow', mode === 'cpu'); // what is behind the panel is not blurred then
     const lights = data.lights.length > 0 ? data.lights.map(takeLight) : [makeDefaultLight()];
-    const viewer = new Viewer(canvas, gl, data, lights, mode, messages);
+    const viewer = new Viewer(canvas, gl, data, lights, chooseMode(query.get('mode'), gl), messages);
     viewer.replace(parseHash(location.hash));
     keepInAddress(viewer);
     new Divider(canvas, viewer);
     const files = new FileDrop(viewer, messages);
     new Panel(viewer, new LightGesture(canvas, viewer), () => files.ask()).refresh();
+    document.body.classList.toggle('slow', viewer.mode === 'cpu'); // what is behind the panel is not blurred then
     if (data.assets.length === 0) messages.say(kNoData);
     else if (query.has('benchmark')) void runBenchmark(viewer, gl).then(showBenchmark);
 }
 
-start();
+/** Where radiance is summed, unless the address asks for one. */
+function chooseMode(asked: string | null, gl: WebGL2RenderingContext): Mode {
+    if (asked === 'cpu' || asked === 'gpu') return asked;
+    return isSoftwareRasteriser(gl) ? 'cpu' : 'gpu';
+}
+
+document.documentElement.dataset.state = 'loading';
+const messages = new Messages(elementOf('message-box'), elementOf('message'), elementOf('message-dismiss'));
+try {
+    start(messages);
+} catch (error) {
+    tellFailed(messages, sentenceOf('This page', error));
+}

@@ -12,9 +12,9 @@ import type { Viewer } from './viewer.js';
 const kTransportLabels: Record<(typeof kTransports)[number], string> = {
     unshadowed: 'No shadows',
     shadowed: 'Shadows',
-    interreflected: 'Shadows and bounces',
+    interreflected: 'Shadows, bounces',
     'glossy-shadowed': 'Glossy, shadows',
-    glossy: 'Glossy, shadows and bounces',
+    glossy: 'Glossy, bounces',
 };
 
 const kWindowLabels: Record<WindowName, string> = { auto: 'As needed', none: 'None', hann: 'Hann', lanczos: 'Lanczos' };
@@ -41,10 +41,14 @@ export class Panel {
     private readonly facts = make('p', { className: 'facts' });
     private readonly title = make('h1');
     private readonly panel: HTMLElement;
+    /** What there is to choose of assets only. */
+    private readonly ofAssets: HTMLElement[];
 
     /** @param openFiles  asks for files to show */
     constructor(private readonly viewer: Viewer, gesture: LightGesture, openFiles: () => void) {
-        const body = make('div', { className: 'body', id: 'panel-body' }, this.makeLight(gesture), this.makeSurface(), this.makePicture(), this.makeCompare());
+        this.ofAssets = [this.makeSurface(), this.makeCompare()];
+        const [surface, compare] = this.ofAssets;
+        const body = make('div', { className: 'body', id: 'panel-body' }, this.makeLight(gesture), surface, this.makePicture(), compare);
         body.append(make('div', { className: 'actions' }, makeButton('Open files…', openFiles), makeButton('Reset view', () => viewer.resetCamera())));
         const fold = make('button', { type: 'button', id: 'panel-fold', ariaLabel: 'Show or hide the controls' });
         fold.setAttribute('aria-controls', body.id);
@@ -63,6 +67,7 @@ export class Panel {
         this.title.textContent = viewer.shelf.names[index] ?? 'OpenPRT';
         const asset = viewer.shelf.find(index);
         this.facts.textContent = asset ? describeAsset(asset.relightable, sideOf(viewer.state, 'first')) : '';
+        for (const section of this.ofAssets) section.hidden = viewer.shelf.names.length === 0;
         for (const control of this.controls) control.refresh();
     }
 
