@@ -4,7 +4,7 @@ export { type Clusters, type Encoding, type Layer, type Storage, type StoredArra
 export { type Asset, type AssetPrimitive, type ReadOptions, findLayer, isAsset, readAsset, readAssetParts } from './asset/read_asset.js';
 export { type MeshoptDecoder } from './asset/gltf_document.js';
 export { coefficientsOf } from './relight/coefficients.js';
-export { type Mat3, type Vec3, rotationXyz, transform, transpose } from './math.js';
+export { type Mat3, type Vec3, rotationXyz, tangentFrame, transform, transpose } from './math.js';
 export { discLighting, sunDirection, sunLighting, uniformLighting } from './sh/analytic_lights.js';
 export { type NonNegative, deringingFactors } from './sh/deringing.js';
 export {
@@ -16,7 +16,6 @@ export { rotateLighting } from './sh/rotate.js';
 export { evaluateSh, shIndex } from './sh/sh.js';
 export { type ShWindow, windowFactors } from './sh/window.js';
 export { receiveLight, relight } from './relight/relight.js';
-export { tangentFrame } from './relight/tangent_frame.js';
 export { OpenPrtPlugin, relightableOf } from './plugin.js';
 export { Relightable, type RelightOptions } from './relightable.js';
 export { makeLobeTable } from './relight/gltf_lobes.js';

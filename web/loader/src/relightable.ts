@@ -92,7 +92,7 @@ export class Relightable {
     /** @param lighting  in the frame of the scene: of a scene that is turned, turned the other way (rotateLighting) */
     setLighting(lighting: Lighting): void {
         this.lighting = lighting;
-        this.light();
+        this.show(this.shownLayer);
     }
 
     /** The same asset once more, to be lit and shown by itself. @param copy  what `root.clone()` made of an object above the meshes */
@@ -107,7 +107,7 @@ export class Relightable {
         return new Relightable(this.asset, meshes, this.options);
     }
 
-    /** Frees what was made for the GPU, and gives the meshes their own materials back. */
+    /** Frees what was made for the GPU, and gives the meshes their own materials back, until they are lit again. */
     dispose(): void {
         for (const { mesh, source, made } of this.shown) {
             mesh.material = source;

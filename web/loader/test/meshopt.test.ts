@@ -42,6 +42,7 @@ describe('an asset encoded by EXT_meshopt_compression', () => {
             extension.byteStride = 256;
         }],
         ['does not fit the length', (extension: any) => ++extension.count],
+        ['is not aligned', (_: any, view: any) => ++view.byteOffset],
         ['ends behind its buffer', (extension: any) => (extension.byteLength = 1e9)],
     ])('that %s is refused', (complaint, change) => {
         const file = openGlb(bytes);

@@ -1,9 +1,8 @@
 import { describe, expect, it } from 'vitest';
 
-import { type Vec3, gaussLegendre, transform, transpose } from '../src/math.js';
+import { type Vec3, gaussLegendre, tangentFrame, transform, transpose } from '../src/math.js';
 import { makeLobeTable } from '../src/relight/gltf_lobes.js';
 import { reflect } from '../src/relight/reflect.js';
-import { tangentFrame } from '../src/relight/tangent_frame.js';
 import { evaluateSh } from '../src/sh/sh.js';
 
 const kBandCount = 5;

@@ -2,10 +2,9 @@ import { describe, expect, it } from 'vitest';
 
 import { isGlossy } from '../src/asset/layer.js';
 import { readAsset } from '../src/asset/read_asset.js';
-import { type Vec3, gaussLegendre, rotationXyz, transform, transpose } from '../src/math.js';
+import { type Vec3, gaussLegendre, rotationXyz, tangentFrame, transform, transpose } from '../src/math.js';
 import { coefficientsOf } from '../src/relight/coefficients.js';
 import { receiveLight, relight } from '../src/relight/relight.js';
-import { tangentFrame } from '../src/relight/tangent_frame.js';
 import { rotateLighting } from '../src/sh/rotate.js';
 import { evaluateSh } from '../src/sh/sh.js';
 import { goldenBytes, kEncodings, kVersions } from './support/golden.js';

@@ -10,7 +10,10 @@ export interface MeshoptDecoder {
 
 const kMeshopt = 'EXT_meshopt_compression';
 // What a file may require: nothing of it changes the vertices.
-const kUnderstood = /^(EXT_meshopt_compression|EXT_texture_(webp|avif)|KHR_texture_(transform|basisu)|KHR_mesh_quantization|KHR_materials_\w+|KHR_lights_punctual|OPENPRT_radiance_transfer)$/;
+const kUnderstood = new RegExp(
+    '^(EXT_meshopt_compression|EXT_texture_(webp|avif)|KHR_texture_(transform|basisu)|KHR_mesh_quantization|' +
+        'KHR_materials_\\w+|KHR_lights_punctual|OPENPRT_radiance_transfer)$',
+);
 // A byte of meshopt's is at most so many: runs of 16 equal bytes take two bits.
 const kMostDecodedPerStored = 256;
 // Each is hashed: a small file must not keep a reader busy.

@@ -135,7 +135,8 @@ function readPrimitive(document: GltfDocument, header: Header, shown: ShownPrimi
     };
     mine.at('checksums').keys().forEach((name) => mine.at('checksums').at(name).toText());
     for (const name of object.at('attributes').keys())
-        if (document.countOf(attributeOf(object, name)) !== vertexCount) object.at('attributes').at(name).reject(`has another number of elements than ${vertexCount}`);
+        if (document.countOf(attributeOf(object, name)) !== vertexCount)
+            object.at('attributes').at(name).reject(`has another number of elements than ${vertexCount}`);
     checkTriangles(document, object, vertexCount);
     const floats = { type: 'VEC3', componentType: 5126, normalized: false, count: vertexCount };
     const positions = arrayOver('float32', readBound('POSITION', floats)) as Float32Array;

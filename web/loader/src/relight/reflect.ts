@@ -1,7 +1,6 @@
-import { type Vec3, transform } from '../math.js';
+import { type Vec3, tangentFrame, transform } from '../math.js';
 import { shIndex } from '../sh/sh.js';
 import { kMostViewPlace, kViewCount } from './gltf_lobes.js';
-import { tangentFrame } from './tangent_frame.js';
 
 /** What leaves a surface towards the eye: baseColor · perBaseColor + constant. */
 export interface ExitRadiance {

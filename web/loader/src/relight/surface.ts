@@ -34,10 +34,11 @@ export function surfaceUniforms({ metallic, roughness, texture }: Surface): Radi
     const uniforms = { prtMetallic: { value: metallic } };
     if (!texture) return uniforms;
     texture.updateMatrix();
-    return { ...uniforms, prtRoughness: { value: roughness }, prtSurface: { value: texture }, prtSurfaceFromUv: { value: texture.matrix } };
+    const { matrix } = texture;
+    return { ...uniforms, prtRoughness: { value: roughness }, prtSurface: { value: texture }, prtSurfaceFromUv: { value: matrix } };
 }
 
-/** GLSL with `void prtFindSurface()`, which sets `float prtMetallicHere`, and `vec3 prtLobe(int row, int element)` of the roughness here. */
+/** GLSL: `prtFindSurface()` sets `prtMetallicHere`, and after it `prtLobe(row, element)` is of the roughness here. */
 export function surfaceCode({ texture }: Surface): string {
     if (!texture)
         return `uniform highp sampler2D prtLobes;
@@ -46,8 +47,9 @@ float prtMetallicHere;
 void prtFindSurface() { prtMetallicHere = prtMetallic; }
 vec3 prtLobe(int row, int element) { return texelFetch(prtLobes, ivec2(element, row), 0).rgb; }
 `;
-    // Of the first coordinates three.js tells every shader.
-    const [uv, declaration] = texture.channel === 0 ? ['uv', ''] : [`uv${texture.channel}`, `#ifndef USE_UV${texture.channel}\nattribute vec2 uv${texture.channel};\n#endif\n`];
+    // Every shader of three.js has the first coordinates, and others where their numbers are defined.
+    const [uv, number] = texture.channel === 0 ? ['uv', ''] : [`uv${texture.channel}`, `UV${texture.channel}`];
+    const declaration = number && `#ifndef USE_${number}\nattribute vec2 ${uv};\n#endif\n`;
     return `${declaration}uniform highp sampler2D prtLobes;
 uniform highp sampler2D prtSurface;
 uniform mat3 prtSurfaceFromUv;

@@ -1,6 +1,6 @@
 // Bibliography
 //   [Sloan17]  Deringing spherical harmonics
-import { type Vec3, gaussLegendre } from '../math.js';
+import { type Vec3, gaussLegendre, tangentFrame, transform, transpose } from '../math.js';
 import type { Lighting } from './lighting.js';
 import { evaluateSh, shIndex } from './sh.js';
 
@@ -129,18 +129,14 @@ function descend(from: Vec3, stepRadians: number, valueAt: (direction: Vec3) => 
 }
 
 /** Eight directions about one, at a small angle. */
-function around([x, y, z]: Vec3, angleRadians: number): Vec3[] {
-    const sign = z >= 0 ? 1 : -1; // tangents as docs/format.md has them
-    const a = -1 / (sign + z);
-    const t: Vec3 = [1 + sign * x * x * a, sign * x * y * a, -sign * x];
-    const b: Vec3 = [x * y * a, sign + y * y * a, -y];
+function around(direction: Vec3, angleRadians: number): Vec3[] {
+    const worldFromLocal = transpose(tangentFrame(direction));
     return [0, 1, 2, 3, 4, 5, 6, 7].map((k) => {
-        const c = Math.sin(angleRadians) * Math.cos((k * Math.PI) / 4);
-        const s = Math.sin(angleRadians) * Math.sin((k * Math.PI) / 4);
-        const h = Math.cos(angleRadians);
-        const direction: Vec3 = [h * x + c * t[0] + s * b[0], h * y + c * t[1] + s * b[1], h * z + c * t[2] + s * b[2]];
-        const length = Math.hypot(...direction);
-        return [direction[0] / length, direction[1] / length, direction[2] / length];
+        const sine = Math.sin(angleRadians);
+        const azimuth = (k * Math.PI) / 4;
+        const [x, y, z] = transform(worldFromLocal, [sine * Math.cos(azimuth), sine * Math.sin(azimuth), Math.cos(angleRadians)]);
+        const length = Math.hypot(x, y, z);
+        return [x / length, y / length, z / length];
     });
 }
 

@@ -189,6 +189,9 @@ window.compareClone = async (url, options, lightings) => {
     });
     twin.dispose();
     result.leftAlone = largestDifference(pixelsOf(scene, camera), expected.at(-1)[0]);
+    relightable.dispose();
+    relightable.setLighting(lights[0]);
+    result.again = largestDifference(pixelsOf(scene, camera), expected.at(-1)[0]);
     return result;
 };
 
