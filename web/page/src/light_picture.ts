@@ -1,4 +1,4 @@
-import { type Lighting, type Vec3, applyWindow, deringingFactors, reconstruct } from 'openprt-three';
+import { type Lighting, type Vec3, applyWindow, reconstruct, windowFactors } from 'openprt-three';
 import { ClampToEdgeWrapping, DataTexture, DataUtils, HalfFloatType, LinearFilter, RGBAFormat, RepeatWrapping } from 'three';
 
 /** What a light looks like, small: lat-long (C4), rows from the top, linear radiance in half floats, four a texel. */
@@ -32,7 +32,7 @@ export function makePicture(width: number, height: number, radianceAt: (column: 
 
 /** Of a light of which there are only coefficients, without their ringing. */
 export function pictureOfCoefficients(lighting: Lighting): LightPicture {
-    const smooth = applyWindow(lighting, deringingFactors(lighting));
+    const smooth = applyWindow(lighting, windowFactors('hann', lighting.bandCount));
     return makePicture(2 * kMadeHeight, kMadeHeight, (column, row) => {
         const theta = (Math.PI * (row + 0.5)) / kMadeHeight;
         const azimuth = (Math.PI * (column + 0.5)) / kMadeHeight - Math.PI;

@@ -5,7 +5,7 @@ import type { LoadedAsset, Mode } from './load_asset.js';
 import { type Messages, sentenceOf } from './messages.js';
 import type { PageData } from './page_data.js';
 import { Picture } from './picture.js';
-import { type SideName, type ViewState, kDefaultState, sideOf } from './view_state.js';
+import { type Side, type SideName, type ViewState, kDefaultState, sideOf } from './view_state.js';
 
 /** How far the page is, for whoever drives it: data-state of the document's element, and data-frame, which counts the frames. */
 type Progress = 'loading' | 'ready' | 'failed';
@@ -62,8 +62,10 @@ export class Viewer {
         this.refresh();
     }
 
-    changeSide(name: SideName, change: ViewState['first']): void {
-        this.change({ [name]: { ...this.state[name], ...change } });
+    /** Another asset is then seen from where it wants to be seen. */
+    changeSide(name: SideName, change: Side): void {
+        const isOther = name === 'first' && change.asset !== undefined && change.asset !== this.assetIndexOf('first');
+        this.change({ [name]: { ...this.state[name], ...change }, ...(isOther ? { eye: undefined, target: undefined } : {}) });
     }
 
     /** Shows the asset from where it wants to be seen. */
@@ -166,10 +168,8 @@ export class Viewer {
         }, kRestMilliseconds);
     }
 
-    /** Another asset is seen from where it wants to be seen, unless it is the first and the address tells otherwise. */
     private lookAt(asset: LoadedAsset, index: number): void {
         if (asset === this.lookedAt) return;
-        if (this.lastShown !== undefined && this.lastShown !== index) this.state = { ...this.state, eye: undefined, target: undefined };
         this.camera.look(asset, this.state);
         this.lookedAt = asset;
         this.lastShown = index;
