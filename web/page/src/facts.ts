@@ -16,7 +16,9 @@ export function describeAsset(relightable: Relightable, side: Side): string {
         `${layer.numberCount * kBytes[layer.storage.encoding]} bytes a vertex`,
         describeStorage(layer),
         `${bandCount} bands`,
-    ].join(' · ');
+    ]
+        .map((fact) => fact.replaceAll(' ', '\u00a0')) // lines break between facts
+        .join(' · ');
 }
 
 function describeStorage({ clusters, storage }: Layer): string {
