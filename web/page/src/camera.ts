@@ -3,6 +3,7 @@ import { MathUtils, PerspectiveCamera, type Sphere, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 import type { LoadedAsset } from './load_asset.js';
+import type { Covered } from './picture.js';
 
 const kNearestOfRadius = 1e-3;
 
@@ -43,7 +44,7 @@ export class OrbitCamera {
      * Fits the camera to a picture of which something is covered. Where what is left is higher than wide the field of view is that of its
      * width, so that what was in view stays in view.
      */
-    fit(width: number, height: number, { right, bottom }: { right: number; bottom: number }): void {
+    fit(width: number, height: number, { right, bottom }: Covered): void {
         const seenRatio = Math.max(width - right, 1) / Math.max(height - bottom, 1);
         const tangent = ((Math.tan(MathUtils.degToRad(this.verticalFovDegrees) / 2) / Math.min(seenRatio, 1)) * height) / Math.max(height - bottom, 1);
         this.camera.aspect = width / height;

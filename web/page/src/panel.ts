@@ -4,6 +4,7 @@ import { type Choice, type Control, make, makeButton, makeCheckbox, makeSegments
 import { describeAsset } from './facts.js';
 import type { DragTarget, LightGesture } from './gestures.js';
 import { chooseShown } from './pane.js';
+import type { Covered } from './picture.js';
 import { makeThumbnails } from './thumbnails.js';
 import { type ToneCurve } from './tone_curve.js';
 import { type SideName, type WindowName, sideOf } from './view_state.js';
@@ -43,6 +44,8 @@ export class Panel {
     private readonly panel: HTMLElement;
     /** What there is to choose of assets only. */
     private readonly ofAssets: HTMLElement[];
+    /** At the last frame. */
+    private covered: Covered = { right: 0, bottom: 0 };
 
     /** @param openFiles  asks for files to show */
     constructor(private readonly viewer: Viewer, gesture: LightGesture, openFiles: () => void) {
@@ -56,13 +59,16 @@ export class Panel {
         this.panel = make('aside', { id: 'panel' }, make('header', {}, make('div', {}, this.title, this.facts), fold), body);
         this.fold(fold, kNarrow.matches);
         document.body.append(this.panel);
-        new ResizeObserver(() => this.tellCovered()).observe(this.panel);
+        viewer.measureCovered = () => (this.covered = this.measure());
+        new ResizeObserver(() => {
+            const { right, bottom } = this.measure();
+            if (right !== this.covered.right || bottom !== this.covered.bottom) viewer.refresh();
+        }).observe(this.panel);
         viewer.onFrame(() => this.refresh());
     }
 
     refresh(): void {
         const { viewer } = this;
-        document.body.classList.toggle('bare', !viewer.state.ui);
         const index = viewer.assetIndexOf('first');
         this.title.textContent = viewer.shelf.names[index] ?? 'OpenPRT';
         const asset = viewer.shelf.find(index);
@@ -76,17 +82,13 @@ export class Panel {
         button.ariaExpanded = String(!isFolded);
     }
 
-    /** Tells what of the picture the panel covers: a sheet its bottom, a column its right, and a column's head alone nothing. */
-    private tellCovered(): void {
-        const { viewer, panel } = this;
-        const { left, top, width } = panel.getBoundingClientRect();
-        const isHidden = width === 0;
-        const isSheet = kNarrow.matches;
-        const right = isHidden || isSheet || panel.classList.contains('folded') ? 0 : innerWidth - left;
-        const bottom = isHidden || !isSheet ? 0 : innerHeight - top;
-        if (right === viewer.covered.right && bottom === viewer.covered.bottom) return;
-        viewer.covered = { right, bottom };
-        viewer.refresh();
+    /** What the panel covers: as a sheet the bottom, as a column the right, and with its head alone nothing. */
+    private measure(): Covered {
+        document.body.classList.toggle('bare', !this.viewer.state.ui);
+        const { left, top, width } = this.panel.getBoundingClientRect();
+        if (width === 0) return { right: 0, bottom: 0 };
+        if (kNarrow.matches) return { right: 0, bottom: innerHeight - top };
+        return { right: this.panel.classList.contains('folded') ? 0 : innerWidth - left, bottom: 0 };
     }
 
     private add<Kind extends Control>(control: Kind): Kind {

@@ -10,6 +10,12 @@ import { type ToneCurve, kToneMappings } from './tone_curve.js';
 const kMostPixelRatio = 2;
 const kCoarsePixelRatio = 0.5;
 
+/** How much of the canvas is hidden at the right and at the bottom, in pixels of the page. */
+export interface Covered {
+    right: number;
+    bottom: number;
+}
+
 /** How the panes become a picture. */
 export interface Shot {
     light: Light;
@@ -19,8 +25,8 @@ export interface Shot {
     background: boolean;
     /** Where the second pane begins, 0 to 1 of the width; absent: nowhere. */
     split?: number | undefined;
-    /** How much is hidden at the right and at the bottom, pixels of the page: what is looked at stands in the middle of the rest. */
-    covered: { right: number; bottom: number };
+    /** What is looked at stands in the middle of the rest. */
+    covered: Covered;
     /** Of fewer pixels, while things move and the CPU draws. */
     isCoarse: boolean;
 }

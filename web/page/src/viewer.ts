@@ -4,7 +4,7 @@ import { type Light, rotationOf } from './lights.js';
 import type { LoadedAsset, Mode } from './load_asset.js';
 import { type Messages, sentenceOf } from './messages.js';
 import type { PageData } from './page_data.js';
-import { Picture } from './picture.js';
+import { type Covered, Picture } from './picture.js';
 import { type Side, type SideName, type ViewState, kDefaultState, sideOf } from './view_state.js';
 
 /** How far the page is, for whoever drives it: data-state of the document's element, and data-frame, which counts the frames. */
@@ -16,8 +16,8 @@ const kRestMilliseconds = 200;
 /** Shows what the state says, and draws only when that has changed. */
 export class Viewer {
     state: ViewState = { ...kDefaultState };
-    /** What of the canvas something else covers, in pixels of the page, from the right and from the bottom. */
-    covered = { right: 0, bottom: 0 };
+    /** Asked before each frame. */
+    measureCovered = (): Covered => ({ right: 0, bottom: 0 });
     readonly picture: Picture;
     readonly shelf: AssetShelf;
     readonly camera: OrbitCamera;
@@ -35,13 +35,13 @@ export class Viewer {
     constructor(
         canvas: HTMLCanvasElement,
         gl: WebGL2RenderingContext,
-        readonly data: PageData,
+        { assets }: PageData,
         readonly lights: Light[],
         readonly mode: Mode,
         private readonly messages: Messages,
     ) {
         this.picture = new Picture(canvas, gl);
-        this.shelf = new AssetShelf(data.assets, mode);
+        this.shelf = new AssetShelf(assets, mode);
         this.camera = new OrbitCamera(canvas, (eye, target) => this.change({ eye, target }));
         new ResizeObserver(() => this.refresh()).observe(canvas);
         this.watchContext(canvas);
@@ -149,7 +149,8 @@ export class Viewer {
         this.shelf.keepOnly(indices);
         if (first) this.lookAt(first, indices[0]);
         const isCoarse = this.mode === 'cpu' && !this.isAtRest;
-        const { exposureStops, covered } = this;
+        const { exposureStops } = this;
+        const covered = this.measureCovered();
         const { tone, background, split } = state;
         picture.draw({ light, rotation, exposureStops, tone, background, split, covered, isCoarse }, this.camera);
         document.documentElement.dataset.frame = String(++this.frameCount);
