@@ -37,6 +37,13 @@ if(PRT_SANITIZE)
         PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
 endif()
 
+# The other straight-line kernels are, but AddressSanitizer's checks in them are not optimized: that would take a minute more.
+if(PRT_SANITIZE MATCHES address)
+    set_source_files_properties(
+        "${PROJECT_SOURCE_DIR}/prt/basis/sh.cpp" "${PROJECT_SOURCE_DIR}/prt/light/texel_kernel.cpp"
+        "${PROJECT_SOURCE_DIR}/prt/transport/gather_kernels.cpp" PROPERTIES COMPILE_OPTIONS -O0)
+endif()
+
 set_property(GLOBAL PROPERTY PRT_MODULES "")
 
 # prt_module(<name> [PLAYER] [USES <module>...] [LIBRARIES <target>...])
