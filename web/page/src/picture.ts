@@ -9,6 +9,8 @@ import { type ToneCurve, kToneMappings } from './tone_curve.js';
 
 const kMostPixelRatio = 2;
 const kCoarsePixelRatio = 0.5;
+/** Without multisampling four pixels stand for one at least. */
+const kSupersampledPixelRatio = 2;
 
 /** How much of the canvas is hidden at the right and at the bottom, in pixels of the page. */
 export interface Covered {
@@ -37,12 +39,15 @@ export class Picture {
     readonly other = new Pane(true);
     private readonly background = new Background();
     private readonly renderer: WebGLRenderer;
+    /** Whether pixels are so dear that there had better be fewer while things move. */
+    readonly isSlow: boolean;
 
     constructor(
         private readonly canvas: HTMLCanvasElement,
         private readonly gl: WebGL2RenderingContext,
     ) {
         this.renderer = new WebGLRenderer({ canvas, context: gl });
+        this.isSlow = !gl.getContextAttributes()?.antialias;
         this.renderer.autoClear = false;
         this.renderer.setClearColor(0x000000, 1);
     }
@@ -51,7 +56,8 @@ export class Picture {
         const { renderer, canvas } = this;
         const [width, height] = [canvas.clientWidth, canvas.clientHeight];
         if (width === 0 || height === 0) return;
-        const ratio = shot.isCoarse ? kCoarsePixelRatio : Math.min(devicePixelRatio, kMostPixelRatio);
+        const fineRatio = this.isSlow ? kSupersampledPixelRatio : Math.min(devicePixelRatio, kMostPixelRatio);
+        const ratio = shot.isCoarse ? kCoarsePixelRatio : fineRatio;
         if (canvas.width !== Math.floor(width * ratio) || canvas.height !== Math.floor(height * ratio)) {
             renderer.setPixelRatio(ratio);
             renderer.setSize(width, height, false);

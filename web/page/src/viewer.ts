@@ -148,7 +148,7 @@ export class Viewer {
         }
         this.shelf.keepOnly(indices);
         if (first) this.lookAt(first, indices[0]);
-        const isCoarse = this.mode === 'cpu' && !this.isAtRest;
+        const isCoarse = picture.isSlow && !this.isAtRest;
         const { exposureStops } = this;
         const covered = this.measureCovered();
         const { tone, background, split } = state;
