@@ -30,7 +30,7 @@ export class Viewer {
     private frameCount = 0;
     private isLost = false;
     private restTimer = 0;
-    private isAtRest = true;
+    private isAtRest = false;
 
     constructor(
         canvas: HTMLCanvasElement,
@@ -106,7 +106,7 @@ export class Viewer {
     /** Draws soon, once what is to be seen is there. */
     refresh(): void {
         if (this.progress !== 'failed') this.tell('loading');
-        this.isAtRest = this.frameCount === 0;
+        this.isAtRest = false;
         if (this.frameRequest === 0) this.frameRequest = requestAnimationFrame(() => this.update());
     }
 
