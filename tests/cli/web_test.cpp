@@ -176,6 +176,8 @@ TEST_F(CliWeb, ThePageHoldsTheBytesOfEachAsset) {
         EXPECT_EQ(decodeBase64(elementText(page, "prt-asset-0")), readText(file("padded.prt.glb")));
         EXPECT_EQ(decodeBase64(elementText(page, "prt-asset-1")), readText(file("seen.prt.glb")));
         EXPECT_EQ(page.find("prt-asset-2"), std::string::npos);
+        EXPECT_TRUE(page.starts_with("<!doctype html>"));
+        EXPECT_GT(page.rfind("</html>"), page.find("id=\"prt-light-0\""));
     }
 }
 
@@ -202,8 +204,8 @@ TEST_F(CliWeb, CoefficientsAreThoseOfPrtLightInTheBandsOfTheAssetThatHasMost) {
     writeText(file("lamp.json"),
               R"({"bands": 1, "convention": "cs", "coefficients": [[1, 2, 3]]})");
     const std::vector<std::string> lights = {"sky:40,50,3", "sun:0,50,20", "lamp.json"};
-    const Json data = readData(makePage({"seen.prt.glb", "stage.prt.glb", "--light", lights[0],
-                                         "--light", lights[1], "--light", lights[2]}));
+    const Json data = readData(makePage({"seen.prt.glb", "stage.prt.glb", "seen.prt.glb", "--light",
+                                         lights[0], "--light", lights[1], "--light", lights[2]}));
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const Json printed =
             Json::parse(run({"light", lights[i], "--bands", "4", "--format", "json"}).output);
