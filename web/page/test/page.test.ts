@@ -38,7 +38,10 @@ describe.skipIf(!hasBrowser || !hasPrt)('the page of prt web, in Chromium', () =
         folder.remove();
     });
 
-    afterEach(() => page.opened.page.setViewportSize({ width: kWidth, height: kHeight }));
+    afterEach(async () => {
+        page.opened.complaints.length = 0; // each test's are its own
+        await page.opened.page.setViewportSize({ width: kWidth, height: kHeight });
+    });
 
     const render = (words: string): Picture => folder.render(`${words} --size ${kWidth}x${kHeight}`);
 
