@@ -12,7 +12,7 @@ const kHeight = 270;
 
 // Both interpolate one radiance a vertex: inside surfaces all that differs is how it is rounded to code values of 8 bits.
 const kSmoothDecibels = 60;
-const kWholeDecibels = 33;
+const kWholeDecibels = 32;
 
 /** Nothing but the picture, of what prt render shows when it is not told otherwise. */
 const kPlain = 'ui=0&window=none&background=0&exposure=0';
