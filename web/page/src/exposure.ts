@@ -11,7 +11,7 @@ const kReflected = [Math.PI, (2 * Math.PI) / 3, Math.PI / 4].map((factor) => fac
 
 /**
  * The stops under which the brightest side of a white diffuse sphere is shown as 0.8, from the light's first three bands, as
- * `prt report light` exposes. A turn of the light changes it by less than can be seen; the page asks before it turns.
+ * `prt export` exposes. A turn of the light changes it by less than can be seen; the page asks before it turns.
  */
 export function chooseExposure(lighting: Lighting): number {
     const reflected = applyWindow(withBands(lighting, kBandCount), kReflected);

@@ -10,11 +10,10 @@ const kEncodings = { float32: 'floats', unorm16: '16 bits', unorm8: '8 bits' };
 export function describeAsset(relightable: Relightable, side: Side): string {
     const { asset, bandCount } = relightable;
     const { transport } = chooseShown(relightable, side);
-    const layer = asset.header.layers.find((candidate) => candidate.transport === transport)!;
+    const layer = asset.header.layers.find((candidate) => candidate.transport === transport);
     return [
         `${asset.header.vertexCount.toLocaleString('en')} vertices`,
-        `${layer.numberCount * kBytes[layer.storage.encoding]} bytes a vertex`,
-        describeStorage(layer),
+        ...(layer ? [`${layer.numberCount * kBytes[layer.storage.encoding]} bytes a vertex`, describeStorage(layer)] : ['from normals alone']),
         `${bandCount} bands`,
     ]
         .map((fact) => fact.replaceAll(' ', '\u00a0')) // lines break between facts

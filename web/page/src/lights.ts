@@ -30,8 +30,9 @@ export class Light {
     }
 }
 
+/** Of suns, little is left that is nowhere negative; that surfaces receive nothing negative costs far less. */
 function smooth(lighting: Lighting, window: WindowName): Lighting {
-    return applyWindow(lighting, window === 'auto' ? deringingFactors(lighting) : windowFactors(window, lighting.bandCount));
+    return applyWindow(lighting, window === 'auto' ? deringingFactors(lighting, 'irradiance') : windowFactors(window, lighting.bandCount));
 }
 
 /** The turn that the state tells of: about x, and then about +y. */

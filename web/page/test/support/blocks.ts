@@ -13,7 +13,7 @@ export function makePage(folder: PrtFolder): void {
     folder.run('compress block.prt.glb -o clusters.prt.glb --method cpca --clusters 8 --components 7 --meshopt');
     folder.write('sky.json', folder.run('light sky:60,40 uniform:0.5 --scale 0.06 --bands 4 --format json'));
     folder.write('sun.json', folder.run('light sun:60,40,20 uniform:0.2 --bands 4 --format json'));
-    folder.write('sun-auto.json', folder.run('light sun.json --window auto --bands 4 --format json'));
+    folder.write('sun-auto.json', folder.run('light sun.json --window auto --nonnegative irradiance --bands 4 --format json'));
     for (const bands of [2, 3]) folder.write(`sky-${bands}.json`, folder.run(`light sky.json --bands ${bands} --format json`));
     const assets = kAssets.map((name) => `${name}.prt.glb`).join(' ');
     folder.run(`web ${assets} ${kLights.map((light) => `--light ${light}`).join(' ')} -o page.html`);
