@@ -22,7 +22,8 @@ else()
 endif()
 target_compile_definitions(prt_build_flags INTERFACE "HWY_DISABLED_TARGETS=(${unused_targets})")
 if(PRT_SANITIZE)
-    # Null and objects that are too small are AddressSanitizer's to find; checked twice, they are a quarter of the time it takes to compile.
+    # Null and objects that are too small are AddressSanitizer's to find, and vptr's are casts down a class hierarchy, of which there
+    # are none: without them a quarter less is compiled.
     target_compile_options(prt_build_flags INTERFACE
         -fsanitize=${PRT_SANITIZE} -fno-sanitize=null,object-size,vptr -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(prt_build_flags INTERFACE -fsanitize=${PRT_SANITIZE})
