@@ -19,6 +19,7 @@ export class Divider {
         });
         document.body.append(this.line);
         viewer.onFrame(() => this.refresh());
+        this.refresh();
     }
 
     private move(split: number): void {

@@ -80,6 +80,7 @@ describe.skipIf(!hasBrowser || !hasPrt)('a page that is damaged', () => {
         await openWith('prt-asset-0', 'no base64');
         expect(await page.state()).toBe('failed');
         expect(await page.message()).toMatch(/^block.*\S\.$/);
+        expect(await page.opened.page.isVisible('#divider')).toBe(false);
         expect(page.opened.complaints).toEqual([]);
         whole = folder.read('whole.html').toString('latin1');
     });
