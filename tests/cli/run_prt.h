@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -86,6 +87,21 @@ class PrtProcess {
 inline CommandResult runPrt(const TemporaryFolder& folder,
                             const std::vector<std::string>& arguments) {
     return PrtProcess(folder, arguments).wait();
+}
+
+/// Holds prt to refuse its arguments in one sentence that has all the words, and to write no file.
+inline void expectRefused(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                          int exitCode, const std::vector<std::string>& words) {
+    const std::ptrdiff_t fileCount = folder.fileCount();
+    const CommandResult result = runPrt(folder, arguments);
+    EXPECT_EQ(result.exitCode, exitCode) << result.errors;
+    const std::size_t start = result.errors.find("prt: error: ");
+    ASSERT_NE(start, std::string::npos) << result.errors;
+    const std::string sentence = result.errors.substr(start);
+    EXPECT_EQ(std::ranges::count(sentence, '\n'), 1) << sentence;
+    for (const std::string& word : words)
+        EXPECT_NE(sentence.find(word), std::string::npos) << sentence;
+    EXPECT_EQ(folder.fileCount(), fileCount) << "a file was left behind";
 }
 
 }  // namespace prt::test

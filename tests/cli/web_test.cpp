@@ -140,21 +140,9 @@ class CliWeb : public testing::Test {
         }
         return picture;
     }
-    /// Refused in one sentence that has all the words, and no file written.
     static void expectRefused(const std::vector<std::string>& arguments, int exitCode,
                               const std::vector<std::string>& words) {
-        const std::ptrdiff_t fileCount = folder_->fileCount();
-        const CommandResult result = attempt(arguments);
-        EXPECT_EQ(result.exitCode, exitCode) << result.errors;
-        const std::size_t start = result.errors.find("prt: error: ");
-        ASSERT_NE(start, std::string::npos) << result.errors;
-        EXPECT_EQ(std::count(result.errors.begin() + static_cast<std::ptrdiff_t>(start),
-                             result.errors.end(), '\n'),
-                  1)
-            << result.errors;
-        for (const std::string& word : words)
-            EXPECT_NE(result.errors.find(word, start), std::string::npos) << result.errors;
-        EXPECT_EQ(folder_->fileCount(), fileCount) << "a file was left behind";
+        test::expectRefused(*folder_, arguments, exitCode, words);
     }
     static std::filesystem::path file(const std::string& name) { return folder_->path() / name; }
 

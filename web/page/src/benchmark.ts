@@ -1,4 +1,4 @@
-import { rendererName } from './graphics.js';
+import { rendererName } from './picture/graphics.js';
 import { wrapDegrees } from './view_state.js';
 import type { Viewer } from './viewer.js';
 

@@ -1,17 +1,17 @@
 import './page.css';
 
 import { keepInAddress } from './address.js';
+import type { Mode } from './assets/load_asset.js';
 import { runBenchmark, showBenchmark } from './benchmark.js';
-import { makeDefaultLight } from './default_light.js';
-import { Divider } from './divider.js';
-import { FileDrop } from './file_drop.js';
-import { LightGesture } from './gestures.js';
-import { isSoftwareRasteriser, openGraphics } from './graphics.js';
-import { takeLight } from './lights.js';
-import type { Mode } from './load_asset.js';
-import { Messages, sentenceOf } from './messages.js';
+import { Divider } from './interface/divider.js';
+import { FileDrop } from './interface/file_drop.js';
+import { LightGesture } from './interface/gestures.js';
+import { Messages, sentenceOf } from './interface/messages.js';
+import { Panel } from './interface/panel.js';
+import { makeDefaultLight } from './lights/default_light.js';
+import { takeLight } from './lights/lights.js';
 import { readPageData } from './page_data.js';
-import { Panel } from './panel.js';
+import { isSoftwareRasteriser, openGraphics } from './picture/graphics.js';
 import { parseHash } from './view_state.js';
 import { Viewer } from './viewer.js';
 

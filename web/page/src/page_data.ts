@@ -6,11 +6,19 @@ export interface PageData {
     lights: LightEntry[];
 }
 
+/** From where an asset is seen at first. */
+export interface View {
+    /** World metres. */
+    eye: Vec3;
+    /** Unit. */
+    forward: Vec3;
+    verticalFovDegrees: number;
+}
+
 /** An asset; its bytes, a binary glTF, stand as base64 in the element `prt-asset-<index>`. */
 export interface AssetEntry {
     name: string;
-    /** From where it is seen at first; world metres. */
-    camera: { eye: Vec3; forward: Vec3; verticalFovDegrees: number };
+    camera: View;
 }
 
 /**

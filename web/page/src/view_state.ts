@@ -1,6 +1,6 @@
 import { type Transport, type Vec3, kTransports } from 'openprt-three';
 
-import { type ToneCurve, kToneCurves } from './tone_curve.js';
+import { type ToneCurve, kToneCurves } from './picture/tone_curve.js';
 
 export const kWindows = ['auto', 'none', 'hann', 'lanczos'] as const;
 export type WindowName = (typeof kWindows)[number];

@@ -1,10 +1,10 @@
-import { AssetShelf } from './asset_shelf.js';
-import { OrbitCamera } from './camera.js';
-import { type Light, rotationOf } from './lights.js';
-import type { LoadedAsset, Mode } from './load_asset.js';
-import { type Messages, sentenceOf } from './messages.js';
+import { AssetShelf } from './assets/asset_shelf.js';
+import type { LoadedAsset, Mode } from './assets/load_asset.js';
+import { type Messages, sentenceOf } from './interface/messages.js';
+import { type Light, rotationOf } from './lights/lights.js';
 import type { PageData } from './page_data.js';
-import { type Covered, Picture } from './picture.js';
+import { type Covered, OrbitCamera } from './picture/camera.js';
+import { Picture } from './picture/picture.js';
 import { type Side, type SideName, type ViewState, kDefaultState, sideOf } from './view_state.js';
 
 /** How far the page is, for whoever drives it: data-state of the document's element, and data-frame, which counts the frames. */

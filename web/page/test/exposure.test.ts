@@ -1,7 +1,7 @@
 import { addLighting, discLighting, rotateLighting, rotationXyz, scaleLighting, sunDirection, uniformLighting } from 'openprt-three';
 import { describe, expect, it } from 'vitest';
 
-import { chooseExposure } from '../src/exposure.js';
+import { chooseExposure } from '../src/lights/exposure.js';
 
 // Normals stand some degrees apart, at which a lobe of three bands has lost less.
 const kGrid = 2e-3;

@@ -1,8 +1,8 @@
 import { uniformLighting } from 'openprt-three';
 import { describe, expect, it } from 'vitest';
 
-import { readLightFile } from '../src/light_file.js';
-import { makePicture, pictureOfCoefficients, radianceOf, readPicture } from '../src/light_picture.js';
+import { readLightFile } from '../src/lights/light_file.js';
+import { makePicture, pictureOfCoefficients, radianceOf, readPicture } from '../src/lights/light_picture.js';
 
 const kRootOf4Pi = Math.sqrt(4 * Math.PI);
 // three.js divides mantissas of .hdr by 255, not 256. Halves have ten bits and one that is understood.

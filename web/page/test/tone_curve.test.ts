@@ -1,7 +1,7 @@
 import { ShaderChunk } from 'three';
 import { describe, expect, it } from 'vitest';
 
-import { applyToneCurve, encodeSrgb8, kToneCurves } from '../src/tone_curve.js';
+import { applyToneCurve, encodeSrgb8, kToneCurves } from '../src/picture/tone_curve.js';
 
 describe('tone curves', () => {
     it('none clamps', () => {

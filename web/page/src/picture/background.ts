@@ -3,7 +3,7 @@
 import { BufferAttribute, BufferGeometry, type DataTexture, Matrix3, Matrix4, Mesh, type PerspectiveCamera, Scene, ShaderMaterial } from 'three';
 import type { Mat3 } from 'openprt-three';
 
-import { type LightPicture, makePictureTexture } from './light_picture.js';
+import { type LightPicture, makePictureTexture } from '../lights/light_picture.js';
 
 const kVertexShader = `
 uniform mat4 worldFromClip;

@@ -1,14 +1,14 @@
 import { kTransports } from 'openprt-three';
 
+import type { Covered } from '../picture/camera.js';
+import { chooseShown } from '../picture/pane.js';
+import { type ToneCurve } from '../picture/tone_curve.js';
+import { type SideName, type WindowName, sideOf } from '../view_state.js';
+import type { Viewer } from '../viewer.js';
 import { type Choice, type Control, make, makeButton, makeCheckbox, makeSegments, makeSelect, makeSlider } from './controls.js';
 import { describeAsset } from './facts.js';
 import type { DragTarget, LightGesture } from './gestures.js';
-import { chooseShown } from './pane.js';
-import type { Covered } from './picture.js';
 import { makeThumbnails } from './thumbnails.js';
-import { type ToneCurve } from './tone_curve.js';
-import { type SideName, type WindowName, sideOf } from './view_state.js';
-import type { Viewer } from './viewer.js';
 
 const kTransportLabels: Record<(typeof kTransports)[number], string> = {
     unshadowed: 'No shadows',

@@ -1,9 +1,9 @@
 import type { Mat3 } from 'openprt-three';
 import { WebGLRenderer } from 'three';
 
+import type { Light } from '../lights/lights.js';
 import { Background } from './background.js';
-import type { OrbitCamera } from './camera.js';
-import type { Light } from './lights.js';
+import type { Covered, OrbitCamera } from './camera.js';
 import { Pane } from './pane.js';
 import { type ToneCurve, kToneMappings } from './tone_curve.js';
 
@@ -11,12 +11,6 @@ const kMostPixelRatio = 2;
 const kCoarsePixelRatio = 0.5;
 /** Without multisampling four pixels stand for one at least. */
 const kSupersampledPixelRatio = 2;
-
-/** How much of the canvas is hidden at the right and at the bottom, in pixels of the page. */
-export interface Covered {
-    right: number;
-    bottom: number;
-}
 
 /** How the panes become a picture. */
 export interface Shot {

@@ -1,9 +1,9 @@
 import { type Lighting, type Mat3, applyWindow, deringingFactors, parseLighting, rotateLighting, rotationXyz, windowFactors, withBands } from 'openprt-three';
 
+import { type LightEntry, takeBytes } from '../page_data.js';
+import type { WindowName } from '../view_state.js';
 import { chooseExposure } from './exposure.js';
 import { type LightPicture, readPicture } from './light_picture.js';
-import { type LightEntry, takeBytes } from './page_data.js';
-import type { WindowName } from './view_state.js';
 
 /** A light that can be chosen. */
 export class Light {

@@ -1,7 +1,7 @@
+import { readLightFile } from '../lights/light_file.js';
+import type { Viewer } from '../viewer.js';
 import { make } from './controls.js';
-import { readLightFile } from './light_file.js';
 import { type Messages, sentenceOf } from './messages.js';
-import type { Viewer } from './viewer.js';
 
 const kAsset = /\.glb$/i;
 const kLight = /\.(hdr|exr|json)$/i;

@@ -2,8 +2,13 @@ import type { Vec3 } from 'openprt-three';
 import { MathUtils, PerspectiveCamera, type Sphere, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
-import type { LoadedAsset } from './load_asset.js';
-import type { Covered } from './picture.js';
+import type { LoadedAsset } from '../assets/load_asset.js';
+
+/** How much of the canvas is hidden at the right and at the bottom, in pixels of the page. */
+export interface Covered {
+    right: number;
+    bottom: number;
+}
 
 const kNearestOfRadius = 1e-3;
 

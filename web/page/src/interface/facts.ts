@@ -1,7 +1,7 @@
 import type { Layer, Relightable } from 'openprt-three';
 
-import { chooseShown } from './pane.js';
-import type { Side } from './view_state.js';
+import { chooseShown } from '../picture/pane.js';
+import type { Side } from '../view_state.js';
 
 const kBytes = { float32: 4, unorm16: 2, unorm8: 1 };
 const kEncodings = { float32: 'floats', unorm16: '16 bits', unorm8: '8 bits' };

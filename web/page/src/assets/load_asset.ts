@@ -1,16 +1,10 @@
-import { OpenPrtError, OpenPrtPlugin, type Relightable, type Vec3, readAsset, relightableOf } from 'openprt-three';
+import { OpenPrtError, OpenPrtPlugin, type Relightable, readAsset, relightableOf } from 'openprt-three';
 import { Box3, type Group, MathUtils, PerspectiveCamera, Sphere, Vector3 } from 'three';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
+import type { View } from '../page_data.js';
 import { frameBounds } from './frame_bounds.js';
-
-/** From where an asset is seen at first. */
-export interface View {
-    eye: Vec3;
-    forward: Vec3;
-    verticalFovDegrees: number;
-}
 
 /** An asset, parsed and ready to be drawn. */
 export interface LoadedAsset {

@@ -1,7 +1,7 @@
 import { MOUSE, TOUCH } from 'three';
 
-import { wrapDegrees } from './view_state.js';
-import type { Viewer } from './viewer.js';
+import { wrapDegrees } from '../view_state.js';
+import type { Viewer } from '../viewer.js';
 
 /** How far the light turns while the pointer goes across the whole canvas; it keeps up with the side of the asset that faces the eye. */
 const kDegreesPerWidth = 360;

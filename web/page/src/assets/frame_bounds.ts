@@ -1,6 +1,6 @@
 import { type Box3, MathUtils, Vector3 } from 'three';
 
-import type { View } from './load_asset.js';
+import type { View } from '../page_data.js';
 
 const kFovDegrees = 40;
 const kAspectRatio = 16 / 9;

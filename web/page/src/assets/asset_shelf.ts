@@ -1,5 +1,5 @@
-import { type LoadedAsset, type Mode, type View, disposeAsset, loadAsset } from './load_asset.js';
-import { type AssetEntry, takeBytes } from './page_data.js';
+import { type AssetEntry, type View, takeBytes } from '../page_data.js';
+import { type LoadedAsset, type Mode, disposeAsset, loadAsset } from './load_asset.js';
 
 interface ShelvedAsset {
     name: string;

@@ -1,7 +1,7 @@
+import { radianceOf } from '../lights/light_picture.js';
+import type { Light } from '../lights/lights.js';
+import { applyToneCurve, encodeSrgb8 } from '../picture/tone_curve.js';
 import { type Control, make } from './controls.js';
-import { radianceOf } from './light_picture.js';
-import type { Light } from './lights.js';
-import { applyToneCurve, encodeSrgb8 } from './tone_curve.js';
 
 /** A light's picture, exposed for itself. */
 function paint(canvas: HTMLCanvasElement, { picture, exposureStops }: Light): void {

@@ -1,9 +1,9 @@
 import type { Mat3, Relightable, Transport } from 'openprt-three';
 import { type Object3D, Scene } from 'three';
 
-import type { Light } from './lights.js';
-import type { LoadedAsset } from './load_asset.js';
-import type { Side, WindowName } from './view_state.js';
+import type { LoadedAsset } from '../assets/load_asset.js';
+import type { Light } from '../lights/lights.js';
+import type { Side, WindowName } from '../view_state.js';
 
 /** What a half shows of an asset, where its side leaves it open or asks for what the asset lacks. */
 export interface Shown {

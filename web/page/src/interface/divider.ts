@@ -1,5 +1,5 @@
+import type { Viewer } from '../viewer.js';
 import { make } from './controls.js';
-import type { Viewer } from './viewer.js';
 
 const kStep = 0.02;
 
