@@ -17,7 +17,7 @@ add_outside_test(outside_bake prt)
 add_outside_test(outside_play play ${without_baker_packages})
 add_test(NAME player_links_no_baker COMMAND ldd "${scratch}/outside_play/outside")
 
-set_tests_properties(install PROPERTIES FIXTURES_SETUP prefix)
+set_tests_properties(install PROPERTIES FIXTURES_SETUP prefix COST 30)
 set_tests_properties(outside_bake PROPERTIES FIXTURES_REQUIRED prefix FIXTURES_SETUP asset)
 set_tests_properties(outside_play PROPERTIES FIXTURES_REQUIRED "prefix;asset" FIXTURES_SETUP player)
 set_tests_properties(player_links_no_baker PROPERTIES FIXTURES_REQUIRED player
