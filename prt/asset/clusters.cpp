@@ -7,6 +7,7 @@
 #include <span>
 #include <type_traits>
 
+#include "prt/asset/reject_asset.h"
 #include "prt/asset/table_header.h"
 #include "prt/base/checksum.h"
 #include "prt/base/error.h"
@@ -27,10 +28,6 @@ std::size_t maxClusterCount(const CompressedLayer& layer) {
                                                             : kMaxClusterCount;
 }
 
-[[noreturn]] void reject(const std::string& complaint) {
-    throw Error(ErrorCode::malformed, complaint);
-}
-
 /// Calls `check(receiver, number)` for all of a column.
 template <class Stored, class Check>
 void visitColumn(const CoefficientTable& numbers, std::size_t column, Check check) {
@@ -46,16 +43,16 @@ void checkRows(const CompressedLayer& layer) {
     const std::vector<std::uint32_t>& componentCounts = layer.bases->componentCounts;
     visitColumn<Stored>(numbers, 0, [&](std::size_t, double k) {
         if (!(k >= 0.0 && k < static_cast<double>(componentCounts.size()) && k == std::floor(k)))
-            reject("has a vertex in a cluster that is not there");
+            rejectAsset("has a vertex in a cluster that is not there");
     });
     std::vector<std::uint32_t> clusters(numbers.rowCount());
     readClusters(layer, 0, clusters);
     const double largest = largestStored(layer.table.encoding);
     for (std::size_t p = 1; p < numbers.columnCount(); ++p)
         visitColumn<Stored>(numbers, p, [&](std::size_t i, double weight) {
-            if (!(weight >= 0.0 && weight <= largest)) reject("holds a weight beyond 0 and 1");
+            if (!(weight >= 0.0 && weight <= largest)) rejectAsset("holds a weight beyond 0 and 1");
             if (weight != 0.0 && p > componentCounts[clusters[i]])
-                reject("holds a weight for a component that its cluster does not have");
+                rejectAsset("holds a weight for a component that its cluster does not have");
         });
 }
 
@@ -130,13 +127,14 @@ void readVectors(const GltfDocument& document, const VectorsPlace& place, int ba
     const std::size_t dimension = coefficientsPerReceiver(bandCount, layer);
     const std::string name = "accessor " + std::to_string(place.accessor);
     if (place.accessor >= document.accessorCount())
-        reject("has no " + name + ", which should hold the vectors of clusters");
+        rejectAsset("has no " + name + ", which should hold the vectors of clusters");
     const AccessorInfo expected = vectorsInfo(*layer.bases, dimension);
     if (document.describeAccessor(place.accessor) != expected)
-        reject(name + " is not of the form that its layer's clusters need");
+        rejectAsset(name + " is not of the form that its layer's clusters need");
     const std::vector<std::byte> bytes = document.readRaw(place.accessor);
     if (formatChecksum(computeCrc32(bytes)) != place.checksum)
-        reject(name + " does not hold the vectors of the layer's clusters: its checksum differs");
+        rejectAsset(name +
+                    " does not hold the vectors of the layer's clusters: its checksum differs");
     StoredTable& vectors = layer.bases->vectors;
     vectors.numbers = CoefficientTable(expected.count / dimension, dimension,
                                        bytesPerCoefficient(vectors.encoding));

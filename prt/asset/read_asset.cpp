@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "prt/asset/asset_header.h"
+#include "prt/asset/reject_asset.h"
 #include "prt/asset/table_header.h"
 #include "prt/base/checksum.h"
 #include "prt/base/error.h"
@@ -23,10 +24,6 @@
 
 namespace prt {
 namespace {
-
-[[noreturn]] void reject(const std::string& complaint) {
-    throw Error(ErrorCode::malformed, complaint);
-}
 
 AssetHeader readHeader(const GltfDocument& document) {
     const std::optional<std::string> json = document.rootExtension(kAssetExtension);
@@ -40,11 +37,12 @@ AssetHeader readHeader(const GltfDocument& document) {
 
 void checkBufferViews(const GltfDocument& document, const std::vector<std::string>& checksums) {
     if (checksums.size() != document.bufferViewCount())
-        reject("has " + std::to_string(document.bufferViewCount()) + " buffer views, but " +
-               std::to_string(checksums.size()) + " checksums");
+        rejectAsset("has " + std::to_string(document.bufferViewCount()) + " buffer views, but " +
+                    std::to_string(checksums.size()) + " checksums");
     for (std::size_t view = 0; view < checksums.size(); ++view)
         if (checksums[view] != formatChecksum(computeCrc32(document.storedViewBytes(view))))
-            reject("is damaged: the checksum of buffer view " + std::to_string(view) + " differs");
+            rejectAsset("is damaged: the checksum of buffer view " + std::to_string(view) +
+                        " differs");
 }
 
 /// The attributes of one primitive, each held to the checksum that binds it to the primitive.
@@ -56,7 +54,8 @@ class BoundAttributes {
           place_("mesh " + std::to_string(id.mesh) + ", primitive " +
                  std::to_string(id.primitive)) {
         const std::optional<std::string> json = document.primitiveExtension(id, kAssetExtension);
-        if (!json) reject(place_ + " has no radiance transfer, as all of an asset's must have");
+        if (!json)
+            rejectAsset(place_ + " has no radiance transfer, as all of an asset's must have");
         const gltf::Json parsed = gltf::parseJson(*json);
         const gltf::JsonCursor object(parsed, place_);
         for (const auto& [semantic, checksum] : object.at("checksums").members())
@@ -71,17 +70,18 @@ class BoundAttributes {
         const auto checksum = checksums_.find(semantic);
         if (checksum == checksums_.end() ||
             checksum->second != formatChecksum(computeCrc32(values)))
-            reject(semantic + " of " + place_ +
-                   " is not what was baked: its checksum is missing or differs");
+            rejectAsset(semantic + " of " + place_ +
+                        " is not what was baked: its checksum is missing or differs");
         return values;
     }
 
   private:
     std::size_t find(const std::string& semantic, const AccessorInfo& expected) const {
         const std::optional<std::size_t> accessor = document_.attributeAccessor(id_, semantic);
-        if (!accessor) reject(place_ + " lacks " + semantic);
+        if (!accessor) rejectAsset(place_ + " lacks " + semantic);
         if (document_.describeAccessor(*accessor) != expected)
-            reject(semantic + " of " + place_ + " is not of the form that the asset's header says");
+            rejectAsset(semantic + " of " + place_ +
+                        " is not of the form that the asset's header says");
         return *accessor;
     }
 
@@ -107,10 +107,11 @@ void checkGeometry(const BoundAttributes& attributes, const Mesh& mesh) {
     for (std::size_t vertex = 0; vertex < mesh.vertexCount(); ++vertex) {
         const float* const xyz = &positions[3 * vertex];
         if (Vec3f(xyz[0], xyz[1], xyz[2]) != mesh.positions[vertex])
-            reject(attributes.place() + " is moved by its node, away from where it was baked");
+            rejectAsset(attributes.place() + " is moved by its node, away from where it was baked");
     }
     for (const float number : readVectors(attributes, "NORMAL", mesh))
-        if (!std::isfinite(number)) reject(attributes.place() + " has a normal that is not finite");
+        if (!std::isfinite(number))
+            rejectAsset(attributes.place() + " has a normal that is not finite");
 }
 
 /// Demands that each vertex has zeros beyond its last number.
@@ -122,7 +123,7 @@ void checkPadding(const CoefficientTable& data) {
     for (std::size_t begin = 0; begin < panel.size(); begin += width)
         for (const std::byte b : panel.subspan(begin + usedBytes, width - usedBytes))
             if (b != std::byte{0})
-                reject("holds a number other than 0 beyond the last of a vertex");
+                rejectAsset("holds a number other than 0 beyond the last of a vertex");
 }
 
 void checkNumbers(const CompressedLayer& layer) {
@@ -152,7 +153,7 @@ void allocateLayers(const GltfDocument& document, CompressedTransfer& transfer) 
         const std::size_t vertexBytes = countAttributes(transfer.bandCount, layer) *
                                         kCoefficientsPerAttribute * coefficientBytes;
         if (transfer.receiverCount > bytesLeft / vertexBytes)
-            reject("has more vertices than numbers for them");
+            rejectAsset("has more vertices than numbers for them");
         bytesLeft -= transfer.receiverCount * vertexBytes;
         layer.table.numbers = CoefficientTable(
             transfer.receiverCount, countNumbers(transfer.bandCount, layer), coefficientBytes);
@@ -191,19 +192,19 @@ void checkInstances(const std::vector<PrimitiveId>& primitiveOfMesh) {
     std::set<std::pair<std::size_t, std::size_t>> seen;
     for (const PrimitiveId& id : primitiveOfMesh)
         if (!seen.emplace(id.mesh, id.primitive).second)
-            reject("places mesh " + std::to_string(id.mesh) +
-                   " twice, with the transfer of one place");
+            rejectAsset("places mesh " + std::to_string(id.mesh) +
+                        " twice, with the transfer of one place");
 }
 
 Asset readFrom(const GltfDocument& document) {
-    if (document.trailingByteCount() > 0) reject("has bytes after its end");
+    if (document.trailingByteCount() > 0) rejectAsset("has bytes after its end");
     AssetHeader header = readHeader(document);
     checkBufferViews(document, header.checksums);
     FlattenedGltf flattened = document.flatten();
     checkInstances(flattened.primitiveOfMesh);
     if (flattened.scene.vertexCount() != header.vertexCount)
-        reject("has " + std::to_string(flattened.scene.vertexCount()) + " vertices, not the " +
-               std::to_string(header.vertexCount) + " of the bake");
+        rejectAsset("has " + std::to_string(flattened.scene.vertexCount()) + " vertices, not the " +
+                    std::to_string(header.vertexCount) + " of the bake");
 
     Asset asset;
     asset.provenance = header.provenance;

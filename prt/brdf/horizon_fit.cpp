@@ -14,10 +14,6 @@
 namespace prt {
 namespace {
 
-std::size_t indexOf(int l, int m) {
-    return static_cast<std::size_t>(shIndex(l, m));
-}
-
 /// (1 − ε) H + ε 1, the blocks [l − m][l' − m] of each m ≥ 0. H has no other elements, and the same
 /// ones for −m.
 std::vector<std::vector<double>> makeBlocks(int bandCount, double weight) {
@@ -39,8 +35,9 @@ std::vector<std::vector<double>> makeBlocks(int bandCount, double weight) {
             const auto size = static_cast<std::size_t>(bandCount - m);
             for (std::size_t i = 0; i < size * size; ++i)
                 blocks[static_cast<std::size_t>(m)][i] +=
-                    share * basis[indexOf(m + static_cast<int>(i / size), m)] *
-                    basis[indexOf(m + static_cast<int>(i % size), m)];
+                    share *
+                    basis[static_cast<std::size_t>(shIndex(m + static_cast<int>(i / size), m))] *
+                    basis[static_cast<std::size_t>(shIndex(m + static_cast<int>(i % size), m))];
         }
     }
     return blocks;
@@ -90,10 +87,11 @@ void HorizonFit::apply(std::span<double> coefficients) const {
         const int m = std::abs(order);
         std::vector<double> ofOrder;
         for (int l = m; l < bandCount_; ++l)
-            ofOrder.push_back(coefficients[indexOf(l, order)]);
+            ofOrder.push_back(coefficients[static_cast<std::size_t>(shIndex(l, order))]);
         solve(factors_[static_cast<std::size_t>(m)], ofOrder);
         for (int l = m; l < bandCount_; ++l)
-            coefficients[indexOf(l, order)] = ofOrder[static_cast<std::size_t>(l - m)];
+            coefficients[static_cast<std::size_t>(shIndex(l, order))] =
+                ofOrder[static_cast<std::size_t>(l - m)];
     }
 }
 

@@ -15,11 +15,6 @@ namespace {
 
 constexpr std::size_t kMaxComponentCount = 16;
 constexpr std::size_t kMaxElementBytes = kMaxComponentCount * sizeof(float);
-constexpr std::size_t kAlignmentBytes = 4;  // of a vertex attribute, and of a matrix's columns
-
-constexpr std::size_t roundUp(std::size_t bytes) {
-    return (bytes + kAlignmentBytes - 1) / kAlignmentBytes * kAlignmentBytes;
-}
 
 ComponentType parseComponentType(const JsonCursor& value) {
     switch (value.toCount()) {
@@ -174,7 +169,7 @@ Accessor parseAccessor(const JsonCursor& value, const std::vector<BufferView>& v
     accessor.rowCount = shape.rowCount;
     const std::size_t columnBytes =
         static_cast<std::size_t>(shape.rowCount) * componentBytes(info.type);
-    accessor.columnBytes = shape.columnCount == 1 ? columnBytes : roundUp(columnBytes);
+    accessor.columnBytes = shape.columnCount == 1 ? columnBytes : alignUp(columnBytes);
     accessor.elementBytes = static_cast<std::size_t>(shape.columnCount) * accessor.columnBytes;
     accessor.lastElementBytes = accessor.elementBytes - (accessor.columnBytes - columnBytes);
     locateElements(value, views, limits, accessor);

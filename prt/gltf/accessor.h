@@ -13,6 +13,14 @@
 
 namespace prt::gltf {
 
+/// Of vertex attributes, of columns of matrices, and of the chunks of a binary glTF.
+inline constexpr std::size_t kAlignmentBytes = 4;
+
+/// The next multiple of it.
+constexpr std::size_t alignUp(std::size_t byteCount) {
+    return (byteCount + kAlignmentBytes - 1) / kAlignmentBytes * kAlignmentBytes;
+}
+
 /// Elements of an accessor that replace those of its buffer view.
 struct SparseElements {
     std::size_t count = 0;

@@ -15,13 +15,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF stores little endian, as we write");
 
-constexpr std::size_t kAlignmentBytes = 4;
 // The largest index of 16 bits is kept for primitive restart [glTF 2.0, 3.7.2.1].
 constexpr std::size_t kMaxShortIndexedVertices = 65535;
-
-std::size_t alignUp(std::size_t byteCount) {
-    return (byteCount + kAlignmentBytes - 1) / kAlignmentBytes * kAlignmentBytes;
-}
 
 /// Copies an array as it lies in memory.
 template <class Value>

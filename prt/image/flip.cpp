@@ -16,8 +16,6 @@
 namespace prt {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // The constants of [Andersson20], by their names there.
 constexpr float kQc = 0.7f;   // compresses colour differences
 constexpr float kPc = 0.4f;   // colour differences up to this part of the largest …
@@ -135,7 +133,7 @@ constexpr std::array<std::array<SensitivityTerm, 2>, 3> kSensitivity = {{
 Plane blurAsTheEye(const Plane& plane, const std::array<SensitivityTerm, 2>& terms,
                    double pixelsPerDegree) {
     constexpr double kWidestB = 0.04;
-    const double widestSigma = std::sqrt(kWidestB / (2.0 * kPi * kPi));
+    const double widestSigma = std::sqrt(kWidestB / (2.0 * std::numbers::pi * std::numbers::pi));
     const int radius = static_cast<int>(std::ceil(3.0 * widestSigma * pixelsPerDegree));
     Plane blurred(plane.width, plane.height);
     double volume = 0.0;
@@ -143,10 +141,10 @@ Plane blurAsTheEye(const Plane& plane, const std::array<SensitivityTerm, 2>& ter
         if (a == 0.0) continue;
         const Kernel gaussian = sampleKernel(radius, [&, width = b](double offset) {
             const double degrees = offset / pixelsPerDegree;
-            return std::exp(-kPi * kPi * degrees * degrees / width);
+            return std::exp(-std::numbers::pi * std::numbers::pi * degrees * degrees / width);
         });
         const double sum = std::accumulate(gaussian.begin(), gaussian.end(), 0.0);
-        const double height = a * std::sqrt(kPi / b);
+        const double height = a * std::sqrt(std::numbers::pi / b);
         volume += height * sum * sum;
         const Plane part = filter(plane, gaussian, gaussian);
         for (std::size_t i = 0; i < part.pixels.size(); ++i)

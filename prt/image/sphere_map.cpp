@@ -16,8 +16,6 @@
 namespace prt {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct SphereMapTraits {
     SphereMap map;
     std::string_view name;
@@ -181,24 +179,25 @@ FacePixel facePixelFromDirection(SphereMap map, int faceSize, const Vec3f& direc
 // ── Lat-long maps ────────────────────────────────────────────────────────────────────────────────
 
 SpherePlace latLongPlace(int width, int height, double x, double y) {
-    const double azimuth = 2.0 * kPi * (x / width - 0.5);
-    const double polar = kPi * y / height;
+    const double azimuth = 2.0 * std::numbers::pi * (x / width - 0.5);
+    const double polar = std::numbers::pi * y / height;
     const double radius = std::sin(polar);
     return {Vec3d(radius * std::cos(azimuth), std::cos(polar), radius * std::sin(azimuth)),
-            2.0 * kPi / width * kPi / height * radius};
+            2.0 * std::numbers::pi / width * std::numbers::pi / height * radius};
 }
 
 SphereTexel latLongTexel(int width, int height, int x, int y) {
     const SpherePlace center = latLongPlace(width, height, x + 0.5, y + 0.5);
     // cos a − cos b = 2 sin((a + b)/2) sin((b − a)/2)
-    const double band = 2.0 * std::sin(kPi * (y + 0.5) / height) * std::sin(0.5 * kPi / height);
-    return {center.direction, 2.0 * kPi / width * band};
+    const double band = 2.0 * std::sin(std::numbers::pi * (y + 0.5) / height) *
+                        std::sin(0.5 * std::numbers::pi / height);
+    return {center.direction, 2.0 * std::numbers::pi / width * band};
 }
 
 Vec2f latLongPixel(int width, int height, const Vec3f& direction) {
     const Vec3d d(direction);
-    const double u = 0.5 + std::atan2(d.z, d.x) / (2.0 * kPi);
-    const double v = std::atan2(lengthOf(d.x, d.z), d.y) / kPi;
+    const double u = 0.5 + std::atan2(d.z, d.x) / (2.0 * std::numbers::pi);
+    const double v = std::atan2(lengthOf(d.x, d.z), d.y) / std::numbers::pi;
     return Vec2f(static_cast<float>(u * width), static_cast<float>(v * height));
 }
 
@@ -216,7 +215,9 @@ bool isInDisc(int size, int x, int y) {
 /// Solid angle per area of the disc, where the polar angle is π times the radius: π sin(πr)/r.
 double angularDensity(double x, double y) {
     const double radius = lengthOf(x, y);
-    return radius > 0.0 ? kPi * std::sin(kPi * std::min(radius, 1.0)) / radius : kPi * kPi;
+    return radius > 0.0
+               ? std::numbers::pi * std::sin(std::numbers::pi * std::min(radius, 1.0)) / radius
+               : std::numbers::pi * std::numbers::pi;
 }
 
 /// Integrates the density over the part of a square that lies in the disc.
@@ -241,10 +242,10 @@ SpherePlace angularPlace(int size, double pixelX, double pixelY) {
     const double y = discCoordinate(pixelY, size);
     const double radius = lengthOf(x, y);
     if (radius > 1.0) return {};
-    const double sine = std::sin(kPi * radius);
+    const double sine = std::sin(std::numbers::pi * radius);
     const double perRadius = radius > 0.0 ? sine / radius : 0.0;
     const double pixelSide = 2.0 / size;
-    return {Vec3d(x * perRadius, -y * perRadius, -std::cos(kPi * radius)),
+    return {Vec3d(x * perRadius, -y * perRadius, -std::cos(std::numbers::pi * radius)),
             pixelSide * pixelSide * angularDensity(x, y)};
 }
 
@@ -268,7 +269,7 @@ SphereTexel angularTexel(int size, int pixelX, int pixelY) {
 Vec2f angularPixel(int size, const Vec3f& direction, double maxRadius) {
     const Vec3d d(direction);
     const double sine = lengthOf(d.x, d.y);
-    const double radius = std::min(std::atan2(sine, -d.z) / kPi, maxRadius);
+    const double radius = std::min(std::atan2(sine, -d.z) / std::numbers::pi, maxRadius);
     const double x = sine > 0.0 ? radius * d.x / sine : radius;
     const double y = sine > 0.0 ? -radius * d.y / sine : 0.0;
     return Vec2f(static_cast<float>(0.5 * size * (1.0 + x)),
@@ -361,7 +362,7 @@ std::vector<double> normalisedSolidAngles(SphereMap map, int width, int height) 
             sum += solidAngles.back();
         }
     for (double& solidAngle : solidAngles)
-        solidAngle *= 4.0 * kPi / sum;
+        solidAngle *= 4.0 * std::numbers::pi / sum;
     return solidAngles;
 }
 

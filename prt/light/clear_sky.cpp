@@ -15,8 +15,6 @@
 namespace prt {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Slope and offset in turbidity of A … E [Preetham99, appendix A1].
 struct Line {
     double slope, offset;
@@ -60,7 +58,7 @@ double evaluateZenith(const ZenithTable& table, double turbidity, double sunThet
 
 /// In thousands of cd/m².
 double evaluateZenithLuminance(double turbidity, double sunTheta) {
-    const double chi = (4.0 / 9.0 - turbidity / 120.0) * (kPi - 2.0 * sunTheta);
+    const double chi = (4.0 / 9.0 - turbidity / 120.0) * (std::numbers::pi - 2.0 * sunTheta);
     return (4.0453 * turbidity - 4.9710) * std::tan(chi) - 0.2155 * turbidity + 2.4192;
 }
 
@@ -136,7 +134,8 @@ Vec3d ClearSky::radiance(const Vec3d& direction) const {
 Vec3d ClearSky::sunIrradiance() const {
     constexpr double kOutsideIlluminance = 128.0;  // thousands of lx
     constexpr double kSunKelvin = 5778.0;
-    const double zenithDegrees = std::acos(std::min(sunDirection_.y, 1.0)) * 180.0 / kPi;
+    const double zenithDegrees =
+        std::acos(std::min(sunDirection_.y, 1.0)) * 180.0 / std::numbers::pi;
     const double airMass =
         1.0 / (std::max(sunDirection_.y, 0.0) + 0.15 * std::pow(93.885 - zenithDegrees, -1.253));
     Vec3d attenuated(0.0), outside(0.0);
@@ -157,10 +156,10 @@ Lighting skyLighting(const ClearSky& sky, int bandCount) {
         // Heights in [0, 1], denser towards the horizon, where the sky changes fastest.
         const double t = 0.5 * (1.0 + node.position);
         const double height = t * t;
-        const double weight = node.weight * t * 2.0 * kPi / kAzimuthCount;
+        const double weight = node.weight * t * 2.0 * std::numbers::pi / kAzimuthCount;
         const double radius = std::sqrt(1.0 - height * height);
         for (int k = 0; k < kAzimuthCount; ++k) {
-            const double azimuth = 2.0 * kPi * (k + 0.5) / kAzimuthCount;
+            const double azimuth = 2.0 * std::numbers::pi * (k + 0.5) / kAzimuthCount;
             const Vec3d direction(radius * std::cos(azimuth), height, radius * std::sin(azimuth));
             evaluateSh(direction, bandCount, values);
             const Vec3d flux = sky.radiance(direction) * weight;

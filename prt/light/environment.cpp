@@ -14,8 +14,6 @@
 namespace prt {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// The largest finite channel, at least 0.
 float findLargestFinite(const Image& radiance) {
     float largest = 0.0f;
@@ -45,7 +43,7 @@ Lighting projectTexels(const Environment& environment, int bandCount) {
             }
         }
     }
-    return scale(lighting, 4.0 * kPi / totalSolidAngle);
+    return scale(lighting, 4.0 * std::numbers::pi / totalSolidAngle);
 }
 
 /// The solid angle that a texel shows of a disc.
@@ -171,17 +169,18 @@ void addDisc(Environment& environment, const Vec3d& direction, double halfAngleR
 Image reconstructLatLong(const Lighting& lighting, int width) {
     PRT_ASSERT(width >= 2 && width % 2 == 0, "the width of a lat-long image is twice its height");
     // About +y as the pole a row is a Fourier series in azimuth, of 2n − 1 terms, not n².
-    const Lighting aboutY = rotate(lighting, rotationX(0.5 * kPi));
+    const Lighting aboutY = rotate(lighting, rotationX(0.5 * std::numbers::pi));
     const auto bandCount = static_cast<std::size_t>(lighting.bandCount);
     std::vector<double> polar(aboutY.coefficients.size());
     std::vector<Vec3d> cosines(bandCount), sines(bandCount);
     Image image(width, width / 2);
     for (int y = 0; y < image.height; ++y) {
-        const double theta = kPi * (y + 0.5) / image.height;
+        const double theta = std::numbers::pi * (y + 0.5) / image.height;
         evaluateSh(Vec3d(std::sin(theta), 0.0, std::cos(theta)), lighting.bandCount, polar);
         sumDegrees(aboutY, polar, cosines, sines);
         for (int x = 0; x < width; ++x)
-            image.at(x, y) = Vec3f(sumOrders(cosines, sines, kPi - 2.0 * kPi * (x + 0.5) / width));
+            image.at(x, y) = Vec3f(sumOrders(
+                cosines, sines, std::numbers::pi - 2.0 * std::numbers::pi * (x + 0.5) / width));
     }
     return image;
 }

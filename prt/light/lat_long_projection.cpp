@@ -12,8 +12,6 @@
 namespace prt {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Column x has its centre at φ = π − (x + ½) 2π/width.
 AzimuthFunctions makeAzimuthFunctions(std::size_t width, int bandCount) {
     AzimuthFunctions functions;
@@ -22,13 +20,13 @@ AzimuthFunctions makeAzimuthFunctions(std::size_t width, int bandCount) {
     functions.blockCount = (functions.foldedSize + DoubleBlock::kSize - 1) / DoubleBlock::kSize;
     functions.cosines.resize(static_cast<std::size_t>(bandCount) * functions.blockCount);
     functions.sines.resize(functions.cosines.size());
-    const double texelAngle = 2.0 * kPi / static_cast<double>(width);
+    const double texelAngle = 2.0 * std::numbers::pi / static_cast<double>(width);
     std::vector<double> amplitudes = {texelAngle};
     for (int m = 1; m < bandCount; ++m)
         amplitudes.push_back(2.0 / m * std::sin(0.5 * m * texelAngle));
 
     for (std::size_t x = 0; x < functions.foldedSize; ++x) {
-        const double phi = kPi - texelAngle * (static_cast<double>(x) + 0.5);
+        const double phi = std::numbers::pi - texelAngle * (static_cast<double>(x) + 0.5);
         const double cosPhi = std::cos(phi), sinPhi = std::sin(phi);
         const bool isOwnMirror = 2 * x + 1 == width || 4 * x + 2 == width;
         double cosine = isOwnMirror ? 0.5 : 1.0, sine = 0.0;
@@ -49,7 +47,7 @@ AzimuthFunctions makeAzimuthFunctions(std::size_t width, int bandCount) {
 /// exact up to k = 2N − 1.
 std::vector<QuadratureNode> makePolarRule(int height, int bandCount) {
     constexpr double kRounding = 1e-17;
-    const double ratio = 0.25 * kPi * bandCount / height;
+    const double ratio = 0.25 * std::numbers::pi * bandCount / height;
     int nodeCount = 0;
     double coefficient = 1.0;
     while (coefficient > kRounding || 2 * nodeCount < ratio) {
@@ -65,10 +63,10 @@ void integratePolarFunctions(int height, int y, int bandCount, std::span<const Q
                              std::span<double> values, std::span<double> integrals) {
     std::fill(integrals.begin(), integrals.end(), 0.0);
     for (const QuadratureNode& node : rule) {
-        const double theta = kPi / height * (y + 0.5 + 0.5 * node.position);
+        const double theta = std::numbers::pi / height * (y + 0.5 + 0.5 * node.position);
         const double sine = std::sin(theta);
         evaluateSh(Vec3d(sine, 0.0, std::cos(theta)), bandCount, values);
-        const double weight = 0.5 * kPi / height * node.weight * sine;
+        const double weight = 0.5 * std::numbers::pi / height * node.weight * sine;
         for (std::size_t i = 0; i < values.size(); ++i)
             integrals[i] += weight * values[i];
     }
@@ -119,7 +117,7 @@ Lighting projectLatLong(const Image& image, int bandCount) {
         integratePolarFunctions(image.height, y, bandCount, polarRule, values, polarIntegrals);
         addRows(north, south, polarIntegrals, aboutY);
     }
-    return rotate(aboutY, rotationX(-0.5 * kPi));
+    return rotate(aboutY, rotationX(-0.5 * std::numbers::pi));
 }
 
 }  // namespace prt

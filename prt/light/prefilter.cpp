@@ -18,8 +18,6 @@
 namespace prt {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// An environment as octahedral maps, which have no seams, each half as wide as the one before.
 class Pyramid {
   public:
@@ -35,7 +33,7 @@ class Pyramid {
 
     /// The level whose texels have this solid angle on average, which may lie between two.
     float levelOf(double solidAngle) const {
-        const double texelCount = 4.0 * kPi / solidAngle;
+        const double texelCount = 4.0 * std::numbers::pi / solidAngle;
         const double level = std::log2(levels_.front().width - 2) - 0.5 * std::log2(texelCount);
         return static_cast<float>(std::clamp(level, 0.0, static_cast<double>(levels_.size() - 1)));
     }
@@ -133,13 +131,14 @@ PolarSample sampleGgx(double alpha, double u) {
     const double squaredCosine = (1.0 - u) / (1.0 + (alpha * alpha - 1.0) * u);
     const double cosine = 2.0 * squaredCosine - 1.0;
     const double falloff = 1.0 + (alpha * alpha - 1.0) * squaredCosine;
-    return {cosine, std::max(cosine, 0.0), alpha * alpha / (4.0 * kPi * falloff * falloff)};
+    return {cosine, std::max(cosine, 0.0),
+            alpha * alpha / (4.0 * std::numbers::pi * falloff * falloff)};
 }
 
 PolarSample samplePhong(double alpha, double u) {
     const double exponent = 1.0 / (alpha * alpha);
     const double cosine = std::pow(1.0 - u, 1.0 / (exponent + 1.0));
-    return {cosine, 1.0, 0.5 * (exponent + 1.0) / kPi * std::pow(cosine, exponent)};
+    return {cosine, 1.0, 0.5 * (exponent + 1.0) / std::numbers::pi * std::pow(cosine, exponent)};
 }
 
 std::vector<LobeSample> drawLobe(ReflectionLobe lobe, double roughness, int sampleCount,
@@ -155,7 +154,7 @@ std::vector<LobeSample> drawLobe(ReflectionLobe lobe, double roughness, int samp
             lobe == ReflectionLobe::ggx ? sampleGgx(alpha, u) : samplePhong(alpha, u);
         if (polar.weight <= 0.0) continue;
         // Turns by the golden angle leave no direction crowded [Vogel79].
-        constexpr double kGoldenAngle = 2.0 * kPi * (2.0 - std::numbers::phi);
+        constexpr double kGoldenAngle = 2.0 * std::numbers::pi * (2.0 - std::numbers::phi);
         const double phi = kGoldenAngle * i;
         const double radius = std::sqrt(std::max(1.0 - polar.cosine * polar.cosine, 0.0));
         const double solidAngle = kSamplesPerTexel / (sampleCount * polar.density);

@@ -14,8 +14,6 @@
 namespace prt {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// An image of the sphere as a graph of texels that touch, whatever seams the layout has.
 class TexelGraph {
   public:
@@ -180,8 +178,9 @@ std::optional<DiscLight> gatherDisc(const std::vector<Excess>& taken) {
     }
     if (sum <= 0.0) return std::nullopt;
     // The disc is as bright as the sun's face: a mean in which texels at its edge count little.
-    const double solidAngle = std::min(sum / (fourthSum / cubeSum), 4.0 * kPi);
-    return DiscLight{direction.normalized(), 2.0 * std::asin(std::sqrt(solidAngle / (4.0 * kPi))),
+    const double solidAngle = std::min(sum / (fourthSum / cubeSum), 4.0 * std::numbers::pi);
+    return DiscLight{direction.normalized(),
+                     2.0 * std::asin(std::sqrt(solidAngle / (4.0 * std::numbers::pi))),
                      flux / solidAngle};
 }
 
