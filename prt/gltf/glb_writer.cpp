@@ -5,6 +5,7 @@
 #include "prt/base/assert.h"
 #include "prt/base/error.h"
 #include "prt/base/file.h"
+#include "prt/gltf/accessor.h"
 #include "prt/gltf/glb_description.h"
 #include "prt/gltf/glb_layout.h"
 #include "prt/gltf/glb_storage.h"
@@ -21,10 +22,6 @@ constexpr std::size_t kHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
 constexpr std::size_t kMaxFileBytes = std::numeric_limits<std::uint32_t>::max();
 
-std::size_t alignUp(std::size_t byteCount) {
-    return (byteCount + 3) / 4 * 4;
-}
-
 /// Where the two chunks of a binary glTF lie.
 struct GlbChunks {
     std::size_t jsonBytes = 0;    ///< padded
@@ -38,7 +35,7 @@ struct GlbChunks {
 };
 
 GlbChunks layOutChunks(std::size_t jsonBytes, std::size_t binaryBytes) {
-    const GlbChunks chunks{alignUp(jsonBytes), alignUp(binaryBytes)};
+    const GlbChunks chunks{gltf::alignUp(jsonBytes), gltf::alignUp(binaryBytes)};
     if (chunks.fileBytes() > kMaxFileBytes)
         throw Error(ErrorCode::limitExceeded,
                     "needs " + std::to_string(chunks.fileBytes()) +

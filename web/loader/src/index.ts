@@ -1,12 +1,12 @@
 export { OpenPrtError, type ErrorCode } from './error.js';
 export { type Header, type Provenance, kExtension } from './asset/header.js';
-export { type Clusters, type Encoding, type Layer, type Storage, type StoredArray, type Transport, kTransports } from './asset/layer.js';
+export { type Clusters, type Encoding, type Layer, type Storage, type StoredArray, type Transport, bytesPerNumber, kTransports } from './asset/layer.js';
 export { type Asset, type AssetPrimitive, type ReadOptions, findLayer, isAsset, readAsset, readAssetParts } from './asset/read_asset.js';
 export { type MeshoptDecoder } from './asset/gltf_document.js';
 export { coefficientsOf } from './relight/coefficients.js';
 export { type Mat3, type Vec3, rotationXyz, tangentFrame, transform, transpose } from './math.js';
 export { discLighting, sunDirection, sunLighting, uniformLighting } from './sh/analytic_lights.js';
-export { type NonNegative, deringingFactors } from './sh/deringing.js';
+export { type NonNegative, clampedCosineFactors, deringingFactors } from './sh/deringing.js';
 export {
     type Lighting, addLighting, applyWindow, darkness, parseLighting, reconstruct, scaleLighting, toThreeProbe, withBands,
 } from './sh/lighting.js';

@@ -1,9 +1,8 @@
-import type { Layer, Relightable } from 'openprt-three';
+import { type Layer, type Relightable, bytesPerNumber } from 'openprt-three';
 
 import { chooseShown } from '../picture/pane.js';
 import type { Side } from '../view_state.js';
 
-const kBytes = { float32: 4, unorm16: 2, unorm8: 1 };
 const kEncodings = { float32: 'floats', unorm16: '16 bits', unorm8: '8 bits' };
 
 /** What an asset stores of the transport that is shown, in a line. */
@@ -13,7 +12,7 @@ export function describeAsset(relightable: Relightable, side: Side): string {
     const layer = asset.header.layers.find((candidate) => candidate.transport === transport);
     return [
         `${asset.header.vertexCount.toLocaleString('en')} vertices`,
-        ...(layer ? [`${layer.numberCount * kBytes[layer.storage.encoding]} bytes a vertex`, describeStorage(layer)] : ['from normals alone']),
+        ...(layer ? [`${layer.numberCount * bytesPerNumber(layer.storage.encoding)} bytes a vertex`, describeStorage(layer)] : ['from normals alone']),
         `${bandCount} bands`,
     ]
         .map((fact) => fact.replaceAll(' ', '\u00a0')) // lines break between facts

@@ -30,14 +30,17 @@ export function makePicture(width: number, height: number, radianceAt: (column: 
     return { width, height, texels };
 }
 
+/** The direction of the centre of a texel (C4), of a lat-long picture twice as wide as high. */
+export function directionOf(column: number, row: number, height: number): Vec3 {
+    const theta = (Math.PI * (row + 0.5)) / height;
+    const azimuth = (Math.PI * (column + 0.5)) / height - Math.PI;
+    return [Math.sin(theta) * Math.cos(azimuth), Math.cos(theta), Math.sin(theta) * Math.sin(azimuth)];
+}
+
 /** Of a light of which there are only coefficients, without their ringing. */
 export function pictureOfCoefficients(lighting: Lighting): LightPicture {
     const smooth = applyWindow(lighting, windowFactors('hann', lighting.bandCount));
-    return makePicture(2 * kMadeHeight, kMadeHeight, (column, row) => {
-        const theta = (Math.PI * (row + 0.5)) / kMadeHeight;
-        const azimuth = (Math.PI * (column + 0.5)) / kMadeHeight - Math.PI;
-        return reconstruct(smooth, [Math.sin(theta) * Math.cos(azimuth), Math.cos(theta), Math.sin(theta) * Math.sin(azimuth)]);
-    });
+    return makePicture(2 * kMadeHeight, kMadeHeight, (column, row) => reconstruct(smooth, directionOf(column, row, kMadeHeight)));
 }
 
 /** Radiance of a texel. */

@@ -10,12 +10,12 @@ export type ToneCurve = (typeof kToneCurves)[number];
 export const kToneMappings: Record<ToneCurve, ToneMapping> = { none: LinearToneMapping, aces: CustomToneMapping, neutral: NeutralToneMapping };
 
 const kCustom = 'vec3 CustomToneMapping( vec3 color ) { return color; }';
-const kSaturated = '100.0'; // keeps the quotient from ∞/∞
+const kSaturated = 100; // keeps the quotient from ∞/∞
 
 ShaderChunk.tonemapping_pars_fragment = ShaderChunk.tonemapping_pars_fragment.replace(
     kCustom,
     `vec3 CustomToneMapping( vec3 color ) { // [Narkowicz15]
-    vec3 x = clamp( toneMappingExposure * color, 0.0, ${kSaturated} );
+    vec3 x = clamp( toneMappingExposure * color, 0.0, ${kSaturated.toFixed(1)} );
     return saturate( x * ( 2.51 * x + 0.03 ) / ( x * ( 2.43 * x + 0.59 ) + 0.14 ) );
 }`,
 );
@@ -31,7 +31,7 @@ export function applyToneCurve(curve: ToneCurve, [red, green, blue]: Color): Col
 
 /** [Narkowicz15]; reaches 1 near 7. */
 function acesOf(radiance: number): number {
-    const x = Math.min(radiance, 100);
+    const x = Math.min(radiance, kSaturated);
     return (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14);
 }
 
